@@ -1,1 +1,5 @@
 //! recording
+
+mod scene_ref;
+
+pub use scene_ref::{InlineMesh, SceneRef};
