@@ -25,6 +25,8 @@ pub mod settle;
 mod show;
 mod stages;
 mod state;
+#[cfg(test)]
+mod tests;
 pub mod subdivide;
 
 pub use engine::Wound;
