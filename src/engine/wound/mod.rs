@@ -25,9 +25,9 @@ pub mod settle;
 mod show;
 mod stages;
 mod state;
+pub mod subdivide;
 #[cfg(test)]
 mod tests;
-pub mod subdivide;
 
 pub use engine::Wound;
 pub use event::{CameraChange, Mode, Pick, SETTINGS, Value, WoundEvent};

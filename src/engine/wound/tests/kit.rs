@@ -13,13 +13,42 @@ use crate::report::Outcome;
 pub(super) fn sphere(divisions: usize) -> IndexedMesh {
     let t = (1.0 + 5f64.sqrt()) / 2.0;
     let corners = [
-        (-1.0, t, 0.0), (1.0, t, 0.0), (-1.0, -t, 0.0), (1.0, -t, 0.0), (0.0, -1.0, t), (0.0, 1.0, t),
-        (0.0, -1.0, -t), (0.0, 1.0, -t), (t, 0.0, -1.0), (t, 0.0, 1.0), (-t, 0.0, -1.0), (-t, 0.0, 1.0),
+        (-1.0, t, 0.0),
+        (1.0, t, 0.0),
+        (-1.0, -t, 0.0),
+        (1.0, -t, 0.0),
+        (0.0, -1.0, t),
+        (0.0, 1.0, t),
+        (0.0, -1.0, -t),
+        (0.0, 1.0, -t),
+        (t, 0.0, -1.0),
+        (t, 0.0, 1.0),
+        (-t, 0.0, -1.0),
+        (-t, 0.0, 1.0),
     ];
-    let mut positions: Vec<DVec3> = corners.iter().map(|&(x, y, z)| DVec3::new(x, y, z).normalize() * 10.0).collect();
+    let mut positions: Vec<DVec3> =
+        corners.iter().map(|&(x, y, z)| DVec3::new(x, y, z).normalize() * 10.0).collect();
     let mut faces: Vec<[u32; 3]> = vec![
-        [0, 11, 5], [0, 5, 1], [0, 1, 7], [0, 7, 10], [0, 10, 11], [1, 5, 9], [5, 11, 4], [11, 10, 2], [10, 7, 6], [7, 1, 8],
-        [3, 9, 4], [3, 4, 2], [3, 2, 6], [3, 6, 8], [3, 8, 9], [4, 9, 5], [2, 4, 11], [6, 2, 10], [8, 6, 7], [9, 8, 1],
+        [0, 11, 5],
+        [0, 5, 1],
+        [0, 1, 7],
+        [0, 7, 10],
+        [0, 10, 11],
+        [1, 5, 9],
+        [5, 11, 4],
+        [11, 10, 2],
+        [10, 7, 6],
+        [7, 1, 8],
+        [3, 9, 4],
+        [3, 4, 2],
+        [3, 2, 6],
+        [3, 6, 8],
+        [3, 8, 9],
+        [4, 9, 5],
+        [2, 4, 11],
+        [6, 2, 10],
+        [8, 6, 7],
+        [9, 8, 1],
     ];
     for _ in 0..divisions {
         let mut middles: BTreeMap<(u32, u32), u32> = BTreeMap::new();
@@ -32,13 +61,17 @@ pub(super) fn sphere(divisions: usize) -> IndexedMesh {
         faces = faces
             .iter()
             .flat_map(|&[a, b, c]| {
-                let (ab, bc, ca) =
-                    (middle(a, b, &mut positions), middle(b, c, &mut positions), middle(c, a, &mut positions));
+                let (ab, bc, ca) = (
+                    middle(a, b, &mut positions),
+                    middle(b, c, &mut positions),
+                    middle(c, a, &mut positions),
+                );
                 [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
             })
             .collect();
     }
-    let uvs = positions.iter().map(|p| Vec2::new((p.x / 25.0 + 0.5) as f32, (p.y / 25.0 + 0.5) as f32)).collect();
+    let uvs =
+        positions.iter().map(|p| Vec2::new((p.x / 25.0 + 0.5) as f32, (p.y / 25.0 + 0.5) as f32)).collect();
     IndexedMesh { face_uvs: faces.clone(), positions, faces, uvs, ..IndexedMesh::default() }
 }
 
@@ -49,7 +82,11 @@ pub(super) fn plate(n: u32) -> IndexedMesh {
     for back in 0..2 {
         for j in 0..=n {
             for i in 0..=n {
-                mesh.positions.push(DVec3::new(2.0 * i as f64 - n as f64, 2.0 * j as f64 - n as f64, -4.0 * back as f64));
+                mesh.positions.push(DVec3::new(
+                    2.0 * i as f64 - n as f64,
+                    2.0 * j as f64 - n as f64,
+                    -4.0 * back as f64,
+                ));
             }
         }
     }
@@ -100,7 +137,11 @@ pub(super) fn run(state: &mut State, event: &WoundEvent) -> (Outcome, String) {
             return (Outcome::Rejected, format!("{}: {}", r.reason, r.detail));
         }
         let broken: Vec<_> = (stage.check)(state, &work).into_iter().filter(|c| !c.ok).collect();
-        if !broken.is_empty() { if let crate::engine::wound::Work::Cut(c) = &work { eprintln!("{:#?}\n{:?}", c.formed.chain.points, c.formed.refinement); } }
+        if !broken.is_empty() {
+            if let crate::engine::wound::Work::Cut(c) = &work {
+                eprintln!("{:#?}\n{:?}", c.formed.chain.points, c.formed.refinement);
+            }
+        }
         assert!(broken.is_empty(), "{} of {event:?}: {broken:#?}", stage.id);
     }
     Wound::commit(state, &mut work);

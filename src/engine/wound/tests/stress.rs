@@ -23,13 +23,17 @@ fn random_pick(state: &State, random: &mut Random) -> Pick {
 /// A pick near another one.
 fn near(state: &State, random: &mut Random, pick: Pick) -> Pick {
     match pick {
-        Pick::Pixel([x, y]) => Pick::Pixel([x + 60.0 * (random.unit() - 0.5), y + 60.0 * (random.unit() - 0.5)]),
+        Pick::Pixel([x, y]) => {
+            Pick::Pixel([x + 60.0 * (random.unit() - 0.5), y + 60.0 * (random.unit() - 0.5)])
+        }
         Pick::Node(n) => {
             let face = state.mesh.face(state.mesh.anchor(n));
             let across = state.mesh.edge(face.edges[random.below(3)]).other_face(state.mesh.anchor(n));
             Pick::Node(across.some().map_or(face.nodes[0], |f| state.mesh.face(f).nodes[random.below(3)]))
         }
-        Pick::Edge(e, _) => Pick::Edge(state.mesh.face(state.mesh.edge(e).faces[0]).edges[random.below(3)], random.unit()),
+        Pick::Edge(e, _) => {
+            Pick::Edge(state.mesh.face(state.mesh.edge(e).faces[0]).edges[random.below(3)], random.unit())
+        }
         Pick::Face(f, ..) => {
             let across = state.mesh.edge(state.mesh.face(f).edges[random.below(3)]).other_face(f);
             Pick::Face(across.some().unwrap_or(f), 0.3, 0.3)
@@ -42,10 +46,21 @@ fn stress(state: &mut State, seed: u64, cuts: usize) -> BTreeMap<String, usize> 
     let mut outcomes = BTreeMap::new();
     for i in 0..cuts {
         let a = 6.283 * random.unit();
-        run(state, &WoundEvent::Camera(CameraChange { azimuth: Some(a), zenith: Some(0.3 + 2.5 * random.unit()), distance: None }));
+        run(
+            state,
+            &WoundEvent::Camera(CameraChange {
+                azimuth: Some(a),
+                zenith: Some(0.3 + 2.5 * random.unit()),
+                distance: None,
+            }),
+        );
         mode(state, if i % 3 == 0 { Mode::Merge } else { Mode::Carve });
         let from = random_pick(state, &mut random);
-        let to = if random.below(2) == 0 { near(state, &mut random, from) } else { random_pick(state, &mut random) };
+        let to = if random.below(2) == 0 {
+            near(state, &mut random, from)
+        } else {
+            random_pick(state, &mut random)
+        };
         let (outcome, why) = cut(state, from, to);
         let key = match outcome {
             Outcome::Applied => "applied".to_owned(),
