@@ -6,6 +6,7 @@
 //! goes through a file of its own that is then renamed, so that two programs cannot spoil each other's work; that it fails (a read-only
 //! folder, a full disk) is no error. Verdicts are never kept, only meshes.
 
+use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, BufReader, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
@@ -43,10 +44,15 @@ impl CacheOptions {
 
     /// In the folder that the environment variable `LANCET_CACHE_DIR` names (empty: no cache), else in the user's cache folder.
     pub fn from_environment() -> Self {
-        match std::env::var_os("LANCET_CACHE_DIR") {
+        let users = || etcetera::choose_base_strategy().ok().map(|b| b.cache_dir().join("lancet"));
+        Self::chosen(std::env::var_os("LANCET_CACHE_DIR"), users)
+    }
+
+    fn chosen(variable: Option<OsString>, users: impl FnOnce() -> Option<PathBuf>) -> Self {
+        match variable {
             Some(folder) if folder.is_empty() => Self::off(),
             Some(folder) => Self::at(folder),
-            None => Self { folder: etcetera::choose_base_strategy().ok().map(|b| b.cache_dir().join("lancet")) },
+            None => Self { folder: users() },
         }
     }
 
@@ -153,5 +159,28 @@ impl<R: Read> Read for HashingReader<R> {
         let read = self.inner.read(bytes)?;
         self.hasher.update(&bytes[..read]);
         Ok(read)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_folder_is_the_variables_or_the_users() {
+        let chosen = |variable: Option<&str>| {
+            CacheOptions::chosen(variable.map(OsString::from), || Some("user".into())).folder
+        };
+        assert_eq!(chosen(Some("x")), Some("x".into()));
+        assert_eq!(chosen(Some("")), None);
+        assert_eq!(chosen(None), Some("user".into()));
+    }
+
+    #[test]
+    fn format_and_content_make_the_name() {
+        let (off, content) = (CacheOptions::off(), [7; 32]);
+        assert_eq!(off.key(0, &content), off.key(0, &content));
+        assert_ne!(off.key(0, &content), off.key(1, &content));
+        assert_ne!(off.key(0, &content), off.key(0, &[8; 32]));
     }
 }

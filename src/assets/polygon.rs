@@ -14,8 +14,10 @@ use glam::{DVec2, DVec3};
 
 use super::exact;
 
-/// Clipping a concave polygon looks at this many corners, times their number squared, at most.
-const TESTS_PER_CORNER_PAIR: usize = 4;
+/// Clipping a concave polygon of n corners looks at n² times this many corners at most, and at `FREE_TESTS` more: twenty times
+/// what a comb or a spiral takes, and a second for the largest.
+const TESTS_PER_CORNER_PAIR: usize = 16;
+const FREE_TESTS: usize = 1 << 20;
 /// A concave polygon with more corners is refused.
 const MOST_CONCAVE_CORNERS: usize = 10_000;
 
@@ -57,11 +59,8 @@ impl Triangulator {
         let mut normal = DVec3::ZERO;
         let ends = self.outline.iter().zip(self.outline.iter().cycle().skip(1));
         for (p, q) in ends {
-            normal += DVec3::new(
-                (p.y - q.y) * (p.z + q.z),
-                (p.z - q.z) * (p.x + q.x),
-                (p.x - q.x) * (p.y + q.y),
-            );
+            normal +=
+                DVec3::new((p.y - q.y) * (p.z + q.z), (p.z - q.z) * (p.x + q.x), (p.x - q.x) * (p.y + q.y));
         }
         let size = normal.abs();
         let flat: fn(&DVec3) -> DVec2 = if size.x >= size.y && size.x >= size.z {
@@ -92,7 +91,7 @@ impl Triangulator {
             return Err(TooComplex);
         }
         self.link(n as u32);
-        let mut budget = TESTS_PER_CORNER_PAIR * n * n;
+        let mut budget = TESTS_PER_CORNER_PAIR * n * n + FREE_TESTS;
         let (mut left, mut misses, mut at) = (n, 0, 0);
         while left > 3 && misses < left {
             budget = budget.checked_sub(left).ok_or(TooComplex)?;
