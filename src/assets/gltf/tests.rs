@@ -91,6 +91,14 @@ fn strips_fans_and_lists_without_indices_are_read() {
     assert_eq!((lines.mesh.faces.len(), lines.notes[0].what.as_str()), (0, "primitive-without-faces"));
 }
 
+fn glb() -> Vec<u8> {
+    let mut bare = document();
+    bare["buffers"][0].as_object_mut().expect("an object").remove("uri");
+    let header = gltf::binary::Header { magic: *b"glTF", version: 2, length: 0 };
+    let glb = gltf::Glb { header, json: bare.to_string().into_bytes().into(), bin: Some(buffer().into()) };
+    glb.to_vec().expect("a GLB")
+}
+
 #[test]
 fn a_glb_and_a_data_uri_carry_their_bytes() {
     let uri = format!("data:application/octet-stream;base64,{}", {
@@ -101,11 +109,7 @@ fn a_glb_and_a_data_uri_carry_their_bytes() {
     assert!(
         matches!(&buffer_uris(embedded.as_bytes()).expect("valid")[..], [Uri::Data(d)] if *d == buffer())
     );
-    let mut bare = document();
-    bare["buffers"][0].as_object_mut().expect("an object").remove("uri");
-    let header = gltf::binary::Header { magic: *b"glTF", version: 2, length: 0 };
-    let glb = gltf::Glb { header, json: bare.to_string().into_bytes().into(), bin: Some(buffer().into()) };
-    let bytes = glb.to_vec().expect("a GLB");
+    let bytes = glb();
     assert!(matches!(&buffer_uris(&bytes).expect("valid")[..], [Uri::Data(d)] if d.starts_with(&buffer())));
     assert_eq!(read(&bytes, &[buffer()]).expect("valid").mesh.faces.len(), 4);
     let named = changed("/buffers/0/uri", json!("a%20b.bin")).to_string();
@@ -129,6 +133,8 @@ fn accessors_that_point_astray_are_faults() {
         ("/accessors/2/type", json!("VEC2"), Syntax),
         ("/accessors/2/componentType", json!(5121), Index),
         ("/accessors/0/bufferView", json!(9), Syntax),
+        ("/meshes/0/primitives/0/attributes", json!({"POSITION": 3}), Index),
+        ("/meshes/0/primitives/0/indices", json!(3), Syntax),
         ("/nodes/1/children", json!([0]), Syntax),
         ("/buffers/0/byteLength", json!(0), Syntax),
     ] {
@@ -159,5 +165,15 @@ proptest! {
         if let Ok(soup) = read(&text, &[data[..cut.index(data.len() + 1)].to_vec()]) {
             let _ = super::super::repair::build(soup, super::super::weld::Rule::Position);
         }
+    }
+
+    /// The same for the frame of a GLB.
+    #[test]
+    fn a_damaged_glb_is_no_panic(at in 0usize..40, byte in any::<u8>(), cut in any::<prop::sample::Index>()) {
+        let mut bytes = glb();
+        bytes[at] = byte;
+        let _ = buffer_uris(&bytes);
+        bytes.truncate(cut.index(bytes.len()));
+        let _ = buffer_uris(&bytes);
     }
 }
