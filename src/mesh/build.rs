@@ -243,18 +243,19 @@ fn make_vertices(input: &IndexedMesh) -> (Vec<Vertex>, Vec<[u32; 3]>) {
     let bits = input.positions.len().next_power_of_two().ilog2();
     let mut first = vec![u32::MAX; 1 << bits];
     let mut vertices: Vec<Vertex> = Vec::with_capacity(input.uvs.len());
-    let mut named: Vec<(u32, u32)> = Vec::with_capacity(input.uvs.len());
+    let mut next: Vec<u32> = Vec::with_capacity(input.uvs.len());
     let mut corner = |node: u32, uv: u32| {
         let uv = input.uvs[uv as usize] + Vec2::ZERO;
         let bucket = bucket_of(node, uv, bits);
         let mut at = first[bucket];
-        while at != u32::MAX && (named[at as usize].0 != node || vertices[at as usize].uv != uv) {
-            at = named[at as usize].1;
+        // Within a list equal coordinates are those of one node, see `bucket_of`.
+        while at != u32::MAX && vertices[at as usize].uv != uv {
+            at = next[at as usize];
         }
         if at == u32::MAX {
             at = vertices.len() as u32;
             vertices.push(blank(uv));
-            named.push((node, first[bucket]));
+            next.push(first[bucket]);
             first[bucket] = at;
         }
         at
@@ -266,7 +267,7 @@ fn make_vertices(input: &IndexedMesh) -> (Vec<Vertex>, Vec<[u32; 3]>) {
 }
 
 /// Where a node's vertex is looked for among 2^bits lists. Most nodes have one vertex, so the node leads and neighbours stay
-/// neighbours; the texture coordinate scatters the others.
+/// neighbours; the texture coordinate scatters the others. With one coordinate, different nodes have different lists.
 fn bucket_of(node: u32, uv: Vec2, bits: u32) -> usize {
     let mixed =
         (u64::from(uv.x.to_bits()) << 32 | u64::from(uv.y.to_bits())).wrapping_mul(0x9e37_79b9_7f4a_7c15);

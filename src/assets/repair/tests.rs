@@ -206,6 +206,26 @@ fn welding_that_would_crowd_an_edge_is_left_undone() {
 }
 
 #[test]
+fn a_stitch_that_closes_a_crowded_edge_is_undone() {
+    // As two cubes that touch in an edge, but they share a node of a third face at both of its ends, so that stitching each cube
+    // makes the ends one.
+    let (mut positions, mut faces) = (Vec::new(), Vec::new());
+    loose_cube(0.0, &mut positions, &mut faces);
+    let second = positions.len();
+    loose_cube(1.0, &mut positions, &mut faces);
+    positions[second..].iter_mut().for_each(|p| p.z += 1.0);
+    for (face, corner, shared) in [(8, 0, 10), (9, 0, 14)] {
+        assert_eq!(positions[faces[face][corner] as usize], positions[shared]);
+        faces[face][corner] = shared as u32;
+    }
+    let faces: Vec<&[u32]> = faces.iter().map(Vec::as_slice).collect();
+    for rule in [Rule::Own, Rule::Position] {
+        let (mesh, _) = built(positions.clone(), &faces, rule);
+        assert_eq!((mesh.face_count(), crate::assets::inspect(&mesh).components), (24, 2), "{rule:?}");
+    }
+}
+
+#[test]
 fn under_their_own_rule_nodes_that_only_touch_stay_apart() {
     let mut positions: Vec<DVec3> = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]].map(DVec3::from).to_vec();
     positions.extend([[0., 0., 0.], [-1., 0., 0.], [0., -1., 0.]].map(DVec3::from));
