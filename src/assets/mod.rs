@@ -1,1 +1,2 @@
 //! assets
+pub mod builtin;
