@@ -86,7 +86,7 @@ impl Surface for Bust {
         let eye = grade(p.distance(dvec3(3.1, 0.7, 7.8)), (1.7, 0.21), (4.0, 0.5));
         let nose = grade(p.distance(dvec3(0.0, -2.6, 9.6)), (1.6, 0.28), (4.0, 0.5));
         let mouth = grade(p.distance(dvec3(0.0, -5.6, 8.6)), (2.2, 0.23), (4.0, 0.5));
-        let ear = grade(p.distance(dvec3(8.0, -0.5, -1.5)), (3.2, 0.32), (6.5, 1.6));
+        let ear = grade(p.distance(dvec3(8.0, -0.5, -1.5)), (3.2, 0.28), (6.0, 1.6));
         face.min(eye).min(nose).min(mouth).min(ear)
     }
 }

@@ -5,6 +5,8 @@
 //! back of the ear, turns over the helix at ρ ≈ 1/2 and comes down over scapha and antihelix into the concha. [`PROFILE`] is
 //! that section, the same all around but for how far the rim stands out; between its knots runs a Catmull-Rom spline.
 
+use std::f64::consts::FRAC_1_SQRT_2;
+
 use glam::{DVec3, dvec3};
 
 /// From the middle of the concha to the root, ρ in steps of 1/8: how far out in the plane of the ear, between nothing (0) and the
@@ -21,7 +23,7 @@ const PROFILE: [[f64; 3]; 9] = [
     [1.00, 1.0, 0.00],
 ];
 
-/// Half axes of the root's ellipse, to the front and upwards, cm.
+/// Half axes of the root, to the front and upwards, cm.
 const ROOT_CM: [f64; 2] = [1.3, 2.6];
 /// The rim's distance from the middle to the front, upwards, to the back, downwards, cm.
 const RIM_CM: [f64; 4] = [1.35, 3.2, 2.3, 3.2];
@@ -32,14 +34,27 @@ const MIDDLE_CM: DVec3 = dvec3(7.0, -0.5, -0.9);
 /// Cosine and sine of the lean to the back.
 const LEAN: [f64; 2] = [0.978, 0.208];
 
-/// ρ, and the cosine and sine of the angle.
-fn polar(s: f64, t: f64) -> (f64, f64, f64) {
-    let rho = s.abs().max(t.abs());
-    if rho == 0.0 {
-        return (0.0, 1.0, 0.0);
+/// A place on an ear, in terms of rings.
+struct Place {
+    /// Which ring.
+    rho: f64,
+    /// Cosine and sine of the angle around it.
+    turn: [f64; 2],
+    /// The same on an octagon: the root has as many corners as its block in the cage has nodes, so that the skin around it,
+    /// which runs straight from node to node, fits at any number of faces.
+    root: [f64; 2],
+}
+
+impl Place {
+    fn new(s: f64, t: f64) -> Self {
+        let rho = s.abs().max(t.abs());
+        let (s, t) = if rho > 0.0 { (s / rho, t / rho) } else { (1.0, 0.0) };
+        let turn = [s * (1.0 - 0.5 * t * t).sqrt(), t * (1.0 - 0.5 * s * s).sqrt()];
+        let octagon = |c: f64, other: f64| {
+            if c.abs() == 1.0 { c * (1.0 - other.abs() * (1.0 - FRAC_1_SQRT_2)) } else { c * FRAC_1_SQRT_2 }
+        };
+        Self { rho, turn, root: [octagon(s, t) * ROOT_CM[0], octagon(t, s) * ROOT_CM[1]] }
     }
-    let (s, t) = (s / rho, t / rho);
-    (rho, s * (1.0 - 0.5 * t * t).sqrt(), t * (1.0 - 0.5 * s * s).sqrt())
 }
 
 /// From the plane of the ear to the space around the ear at +x: to the front, upwards, off the head.
@@ -49,28 +64,26 @@ fn lean(front: f64, up: f64, off: f64) -> DVec3 {
 
 /// The direction, seen from the middle of the head, in which the root's disc has its place (s, t). `side` is 1 at +x, −1 at −x.
 pub(super) fn direction(side: f64, s: f64, t: f64) -> DVec3 {
-    let (rho, cos, sin) = polar(s, t);
-    let d = MIDDLE_CM + lean(ROOT_CM[0] * rho * cos, ROOT_CM[1] * rho * sin, 0.0);
+    let Place { rho, root, .. } = Place::new(s, t);
+    let d = MIDDLE_CM + lean(rho * root[0], rho * root[1], 0.0);
     dvec3(d.x * side, d.y, d.z)
 }
 
 /// How far the place (s, t) is moved off the head's surface.
 pub(super) fn fold(side: f64, s: f64, t: f64) -> DVec3 {
-    let (rho, cos, sin) = polar(s, t);
-    let [out, root, off] = profile(rho);
-    let (rim_front, rim_up) = rim(cos, sin);
-    let towards = |rim: f64, root_cm: f64| out * (rim + (root_cm - rim) * root);
-    let front = towards(rim_front, ROOT_CM[0] * cos) - ROOT_CM[0] * rho * cos;
-    let up = towards(rim_up, ROOT_CM[1] * sin) - ROOT_CM[1] * rho * sin;
+    let Place { rho, turn: [cos, sin], root } = Place::new(s, t);
+    let [out, to_root, off] = profile(rho);
+    let rim = rim(cos, sin);
+    let [front, up] = [0, 1].map(|k| out * (rim[k] + (root[k] - rim[k]) * to_root) - rho * root[k]);
     let d = lean(front, up, off * height(cos, sin));
     dvec3(d.x * side, d.y, d.z)
 }
 
 /// The rim: half an ellipse of its own on each side, wider above than at the lobe.
-fn rim(cos: f64, sin: f64) -> (f64, f64) {
+fn rim(cos: f64, sin: f64) -> [f64; 2] {
     let [front, up, back, down] = RIM_CM;
     let across = if cos > 0.0 { front } else { back * (1.0 + 0.16 * sin) };
-    (cos * across, sin * if sin > 0.0 { up } else { down })
+    [cos * across, sin * if sin > 0.0 { up } else { down }]
 }
 
 fn height(cos: f64, sin: f64) -> f64 {

@@ -23,10 +23,10 @@ pub(super) fn sphere(faces: usize) -> IndexedMesh {
     let f = libm::round((faces as f64 / 20.0).sqrt()).max(1.0) as u32;
     let strip = dvec2(1.5, 1.5 * 3f64.sqrt());
     let atlas = Atlas::pack(&[strip; 5]);
-    let mut ball = Ball { f, nodes: BTreeMap::new(), mesh: IndexedMesh::default() };
+    let mut ball = Ball { f, nodes: BTreeMap::new(), uvs: BTreeMap::new(), mesh: IndexedMesh::default() };
     for chart in 0..5 {
         for corners in strip_faces(chart) {
-            ball.add(corners, |p| atlas.uv(chart as usize, p));
+            ball.add(chart, corners, |p| atlas.uv(chart as usize, p));
         }
     }
     ball.mesh
@@ -64,28 +64,38 @@ struct Ball {
     f: u32,
     /// Nodes by the corners of the icosahedron that they lie between and how near they are to each, in the order of the corners.
     nodes: BTreeMap<[(u32, u32); 3], u32>,
+    /// Texture coordinates by chart and node.
+    uvs: BTreeMap<(u32, u32), u32>,
     mesh: IndexedMesh,
 }
 
 impl Ball {
-    fn add(&mut self, corners: [Corner; 3], uv: impl Fn(DVec2) -> Vec2) {
-        let (f, first_uv) = (self.f, self.mesh.uvs.len() as u32);
+    fn add(&mut self, chart: u32, corners: [Corner; 3], uv: impl Fn(DVec2) -> Vec2) {
+        let f = self.f;
         let weights = (0..=f).flat_map(|i| (0..=i).map(move |j| [f - i, i - j, j]));
         let mut grid = Vec::new();
         for weights in weights {
-            grid.push(self.node(corners, weights));
+            let node = self.node(corners, weights);
             let mix = (0..3).map(|k| corners[k].1 * f64::from(weights[k])).sum::<DVec2>();
-            self.mesh.uvs.push(uv(mix / f64::from(f)));
+            grid.push((node, self.uv(chart, node, uv(mix / f64::from(f)))));
         }
         let at = |i: u32, j: u32| i * (i + 1) / 2 + j;
         for (i, j) in (0..f).flat_map(|i| (0..=i).map(move |j| (i, j))) {
             let upright = [at(i, j), at(i + 1, j), at(i + 1, j + 1)];
             let hanging = (j < i).then(|| [at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
             for face in std::iter::once(upright).chain(hanging) {
-                self.mesh.faces.push(face.map(|k| grid[k as usize]));
-                self.mesh.face_uvs.push(face.map(|k| first_uv + k));
+                self.mesh.faces.push(face.map(|k| grid[k as usize].0));
+                self.mesh.face_uvs.push(face.map(|k| grid[k as usize].1));
             }
         }
+    }
+
+    fn uv(&mut self, chart: u32, node: u32, uv: Vec2) -> u32 {
+        let uvs = &mut self.mesh.uvs;
+        *self.uvs.entry((chart, node)).or_insert_with(|| {
+            uvs.push(uv);
+            uvs.len() as u32 - 1
+        })
     }
 
     fn node(&mut self, corners: [Corner; 3], weights: [u32; 3]) -> u32 {
