@@ -187,14 +187,10 @@ fn the_same_bytes_every_time() {
 }
 
 fn digest(mesh: &IndexedMesh) -> blake3::Hash {
-    let mut hasher = blake3::Hasher::new();
-    mesh.positions
-        .iter()
-        .flat_map(|p| p.to_array())
-        .for_each(|x| drop(hasher.update(&x.to_bits().to_le_bytes())));
-    mesh.uvs.iter().flat_map(|p| p.to_array()).for_each(|x| drop(hasher.update(&x.to_bits().to_le_bytes())));
-    mesh.faces.iter().chain(&mesh.face_uvs).flatten().for_each(|i| drop(hasher.update(&i.to_le_bytes())));
-    hasher.finalize()
+    let positions = mesh.positions.iter().flat_map(|p| p.to_array()).flat_map(|x| x.to_bits().to_le_bytes());
+    let uvs = mesh.uvs.iter().flat_map(|p| p.to_array()).flat_map(|x| x.to_bits().to_le_bytes());
+    let indices = mesh.faces.iter().chain(&mesh.face_uvs).flatten().flat_map(|i| i.to_le_bytes());
+    blake3::hash(&positions.chain(uvs).chain(indices).collect::<Vec<u8>>())
 }
 
 #[test]
