@@ -227,7 +227,7 @@ fn azimuth(column: usize) -> f64 {
 /// A column's direction seen from above, as (x, z); exactly in the plane of symmetry where it should be.
 fn heading(column: usize) -> DVec2 {
     let (sin, cos) = libm::sincos(azimuth(column));
-    dvec2(if column % (COLUMNS / 2) == 0 { 0.0 } else { sin }, cos)
+    dvec2(if column.is_multiple_of(COLUMNS / 2) { 0.0 } else { sin }, cos)
 }
 
 /// The column of the tube at the border of a disc, where its grid's node (a, b) is on it.
