@@ -82,7 +82,7 @@ impl Surface for Bust {
 
     fn edge_length(&self, p: DVec3) -> f64 {
         let p = dvec3(p.x.abs(), p.y, p.z);
-        let face = grade(p.distance(dvec3(0.0, -2.5, 8.5)), (7.0, 0.38), (16.0, 2.0));
+        let face = grade(p.distance(dvec3(0.0, -2.5, 8.5)), (8.5, 0.36), (15.0, 1.5));
         let eye = grade(p.distance(dvec3(3.1, 0.7, 7.8)), (1.7, 0.21), (4.0, 0.5));
         let nose = grade(p.distance(dvec3(0.0, -2.6, 9.6)), (1.6, 0.28), (4.0, 0.5));
         let mouth = grade(p.distance(dvec3(0.0, -5.6, 8.6)), (2.2, 0.23), (4.0, 0.5));
