@@ -7,6 +7,7 @@
 //! Promised: whatever the bytes, a typed error or a manifold, oriented mesh; never a panic, never an allocation that the
 //! size of the file does not justify. Not promised: that a mesh does not intersect itself.
 
+pub mod builtin;
 pub mod cache;
 mod error;
 mod exact;
@@ -33,7 +34,6 @@ pub use inspect::{MeshFacts, inspect};
 pub use open::{Loaded, open};
 pub use scene::SceneSettings;
 
-use crate::mesh::IndexedMesh;
 
 /// Something that was changed or passed over while a mesh was read.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -61,11 +61,6 @@ impl Notes for Vec<Note> {
     fn note(&mut self, what: &str, count: usize, detail: String) {
         self.push(Note::new(what, count, detail));
     }
-}
-
-/// A mesh made by code.
-fn builtin(name: &str) -> Result<IndexedMesh, String> {
-    Err(format!("there is no built-in scene `{name}`"))
 }
 
 #[cfg(test)]
