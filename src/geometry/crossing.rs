@@ -33,7 +33,10 @@ fn pierces(a: &Corners, b: &Corners) -> bool {
     (0..3).any(|i| {
         let j = (i + 1) % 3;
         let apart = side[i] != Ordering::Equal && side[i] == side[j].reverse();
-        apart && !b.ids.contains(&a.ids[i]) && !b.ids.contains(&a.ids[j]) && passes_inside(a.at[i], a.at[j], b.at)
+        apart
+            && !b.ids.contains(&a.ids[i])
+            && !b.ids.contains(&a.ids[j])
+            && passes_inside(a.at[i], a.at[j], b.at)
     })
 }
 

@@ -57,7 +57,11 @@ impl Approx {
 
     fn sign(self) -> Option<Ordering> {
         // A NaN or an infinity compares false, and so is left to the integers.
-        if self.error < self.value.abs() && self.value.is_finite() { self.value.partial_cmp(&0.0) } else { None }
+        if self.error < self.value.abs() && self.value.is_finite() {
+            self.value.partial_cmp(&0.0)
+        } else {
+            None
+        }
     }
 }
 
@@ -108,7 +112,8 @@ impl Number for Dyadic {
     fn of(value: f64) -> Self {
         let bits = value.to_bits();
         let (biased, fraction) = ((bits >> 52 & 0x7ff) as i64, (bits & ((1 << 52) - 1)) as i64);
-        let (magnitude, exponent) = if biased == 0 { (fraction, -1074) } else { (fraction | 1 << 52, biased - 1075) };
+        let (magnitude, exponent) =
+            if biased == 0 { (fraction, -1074) } else { (fraction | 1 << 52, biased - 1075) };
         let zeros = if magnitude == 0 { 0 } else { magnitude.trailing_zeros() };
         let magnitude = magnitude >> zeros;
         let mantissa = BigInt::from(if value.is_sign_negative() { -magnitude } else { magnitude });

@@ -49,7 +49,8 @@ pub fn orient2d(axis: Axis, a: DVec3, b: DVec3, c: DVec3) -> Sign {
     let (i, j) = axis.plane();
     let (left, right) = ((b[i] - a[i]) * (c[j] - a[j]), (b[j] - a[j]) * (c[i] - a[i]));
     let det = left - right;
-    if det.abs() > ORIENT2D_BOUND * (left.abs() + right.abs()) && det.abs() > SMALLEST_SURE && det.is_finite() {
+    if det.abs() > ORIENT2D_BOUND * (left.abs() + right.abs()) && det.abs() > SMALLEST_SURE && det.is_finite()
+    {
         return if det > 0.0 { Ordering::Greater } else { Ordering::Less };
     }
     sign(&Orient2d { plane: (i, j), a, b, c })

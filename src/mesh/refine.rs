@@ -68,7 +68,8 @@ struct SplitEdge {
 impl Mesh {
     /// Refines the mesh. The refinement must name every face at a split edge.
     pub fn refine(&mut self, plan: &Refinement) -> Refined {
-        let made: Vec<Made> = plan.points.iter().map(|&(site, position)| self.make_point(site, position)).collect();
+        let made: Vec<Made> =
+            plan.points.iter().map(|&(site, position)| self.make_point(site, position)).collect();
         let split_edges = self.split_edges(plan, &made);
         let children = plan.faces.iter().map(|split| self.split_face(split, &made, &split_edges)).collect();
         Refined { nodes: made.iter().map(|m| m.node).collect(), children }
@@ -141,12 +142,18 @@ impl Mesh {
         parts
     }
 
-    fn split_face(&mut self, split: &FaceSplit, made: &[Made], edges: &FxHashMap<EdgeId, SplitEdge>) -> Vec<FaceId> {
+    fn split_face(
+        &mut self,
+        split: &FaceSplit,
+        made: &[Made],
+        edges: &FxHashMap<EdgeId, SplitEdge>,
+    ) -> Vec<FaceId> {
         let face = *self.face(split.face);
         let mut local = Local::new(self, &face, split, made, edges);
         let first = self.face_count() as u32;
-        let ids: Vec<FaceId> =
-            (0..split.children.len() as u32).map(|i| if i == 0 { split.face } else { FaceId(first + i - 1) }).collect();
+        let ids: Vec<FaceId> = (0..split.children.len() as u32)
+            .map(|i| if i == 0 { split.face } else { FaceId(first + i - 1) })
+            .collect();
         for (&child, &id) in split.children.iter().zip(&ids) {
             let corners = child.map(|c| c as usize);
             let sides = [0, 1, 2].map(|i| local.edge(self, corners[i], corners[(i + 1) % 3], id));
@@ -185,10 +192,19 @@ struct Local {
 }
 
 impl Local {
-    fn new(mesh: &Mesh, face: &Face, split: &FaceSplit, made: &[Made], edges: &FxHashMap<EdgeId, SplitEdge>) -> Self {
-        let mut local = Self { corners: Vec::with_capacity(3 + split.points.len()), edges: Vec::with_capacity(16) };
+    fn new(
+        mesh: &Mesh,
+        face: &Face,
+        split: &FaceSplit,
+        made: &[Made],
+        edges: &FxHashMap<EdgeId, SplitEdge>,
+    ) -> Self {
+        let mut local =
+            Self { corners: Vec::with_capacity(3 + split.points.len()), edges: Vec::with_capacity(16) };
         local.corners.extend(face.nodes.into_iter().zip(face.vertices));
-        local.corners.extend(split.points.iter().map(|&p| (made[p as usize].node, made[p as usize].vertices[0])));
+        local
+            .corners
+            .extend(split.points.iter().map(|&p| (made[p as usize].node, made[p as usize].vertices[0])));
         for side in 0..3 {
             local.add_side(mesh, face, side, split, made, edges);
         }

@@ -55,7 +55,7 @@ impl fmt::Display for Cause {
                 write!(f, "there is no engine {name:?}; there is {}", ENGINES.join(", "))
             }
             Self::CutOff { missing } => {
-                write!(f, "the file ends here, {missing} bytes too early, or a length is damaged")
+                write!(f, "the file ends here; bytes missing: at least {missing}, or a length is damaged")
             }
             Self::Checksum => write!(f, "damaged: the checksum does not match"),
             Self::TooLong { bytes } => write!(f, "a frame of {bytes} bytes is longer than any"),

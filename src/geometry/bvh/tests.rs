@@ -2,7 +2,8 @@ use super::*;
 
 /// Small boxes scattered by a fixed rule.
 fn scattered(i: u32) -> Aabb {
-    let h = |k: u32| ((i.wrapping_mul(2_654_435_761).wrapping_add(k.wrapping_mul(40_503))) >> 8) as f64 % 1000.0;
+    let h =
+        |k: u32| ((i.wrapping_mul(2_654_435_761).wrapping_add(k.wrapping_mul(40_503))) >> 8) as f64 % 1000.0;
     let p = DVec3::new(h(1), h(2) / 3.0, h(3) / 7.0);
     Aabb::around(&[p, p + DVec3::splat(2.0)])
 }
@@ -24,7 +25,10 @@ fn expected(count: u32, query: &Aabb, bounds: impl Fn(u32) -> Aabb) -> Vec<u32> 
 }
 
 fn queries() -> Vec<Aabb> {
-    (0..40).map(|i| scattered(i * 97 + 5)).chain([Aabb::around(&[DVec3::ZERO, DVec3::splat(500.0)])]).collect()
+    (0..40)
+        .map(|i| scattered(i * 97 + 5))
+        .chain([Aabb::around(&[DVec3::ZERO, DVec3::splat(500.0)])])
+        .collect()
 }
 
 #[test]

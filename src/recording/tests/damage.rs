@@ -150,7 +150,7 @@ fn errors_read_well() {
     let error = read(&bytes[..bytes.len() - 1]).unwrap_err().to_string();
     let length = bytes.len() - 1;
     let expected = format!(
-        "byte {length}, frame 12 (after 10 events): the file ends here, 1 bytes too early, or a length is damaged"
+        "byte {length}, frame 12 (after 10 events): the file ends here; bytes missing: at least 1, or a length is damaged"
     );
     assert_eq!(error, expected);
 }
