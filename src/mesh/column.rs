@@ -45,13 +45,18 @@ pub(super) struct ColumnMark {
 impl<T: Copy + PartialEq> Column<T> {
     /// Takes the array over and leaves room for the edits to come, so that a cut does not move a large mesh.
     pub(super) fn new(mut data: Vec<T>) -> Self {
-        let room = data.len() + data.len() / 32 + 64;
+        let room = Self::roomy(data.len());
         if data.capacity() < room || data.capacity() > 2 * room {
             let mut exact = Vec::with_capacity(room);
             exact.append(&mut data);
             data = exact;
         }
         Self { data, log: Vec::new(), start: None }
+    }
+
+    /// The capacity that [`Self::new`] asks for: what is read into so much is not moved again.
+    pub(super) fn roomy(len: usize) -> usize {
+        len + len / 32 + 64
     }
 
     #[inline]

@@ -20,6 +20,7 @@ mod column;
 mod fan;
 mod ids;
 mod journal;
+pub mod raw;
 pub mod refine;
 
 use glam::{DVec3, Vec2, Vec3};

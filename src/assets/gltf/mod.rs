@@ -1,0 +1,150 @@
+//! glTF 2.0 and GLB: the triangles of every mesh that the default scene shows, where its nodes put them.
+//!
+//! The crate `gltf` reads and checks the document; the numbers are read here, since an accessor of a hostile file can point
+//! anywhere and the crate's own iterators trust it. Triangles, strips and fans are read, points and lines passed over with a note. Texture
+//! coordinates are those of set 0; glTF has its origin top left, so v becomes 1 − v. A transform that mirrors turns its triangles over. Skins and
+//! morph targets are not applied: a mesh is taken as it rests. Sparse accessors are refused.
+
+mod accessor;
+mod buffers;
+
+use glam::{DMat4, DVec3, Vec2};
+use gltf::mesh::Mode;
+use gltf::{Document, Gltf, Node, Primitive, Semantic};
+
+use super::Notes;
+use super::error::{Fault, FaultKind};
+use super::soup::{NO_UV, Polygons, Soup, Unit};
+pub(super) use buffers::{Uri, buffer_uris};
+
+/// Reads a glTF or GLB file, its buffers given by index (that of a GLB is in the file itself).
+pub(super) fn read(bytes: &[u8], buffers: &[Vec<u8>]) -> Result<Soup, Fault> {
+    let document = parse(bytes)?.document;
+    let mut collector = Collector { buffers, ..Collector::new() };
+    collector.scene(&document)?;
+    let Collector { positions, uvs, polygons, passed_over, .. } = collector;
+    let mut soup = Soup::new(positions, uvs, &polygons, Unit::Face)?;
+    if passed_over > 0 {
+        soup.notes.note("primitive-without-faces", passed_over, "points and lines were passed over".into());
+    }
+    Ok(soup)
+}
+
+fn parse(bytes: &[u8]) -> Result<Gltf, Fault> {
+    Gltf::from_slice(bytes).map_err(|error| Fault::whole(FaultKind::Syntax, error.to_string()))
+}
+
+struct Collector<'a> {
+    buffers: &'a [Vec<u8>],
+    positions: Vec<DVec3>,
+    uvs: Vec<Vec2>,
+    polygons: Polygons,
+    passed_over: usize,
+}
+
+impl Collector<'_> {
+    fn new() -> Self {
+        Self {
+            buffers: &[],
+            positions: Vec::new(),
+            uvs: Vec::new(),
+            polygons: Polygons::default(),
+            passed_over: 0,
+        }
+    }
+
+    /// Walks over the default scene's nodes, or the first scene's; a document without scenes shows nothing.
+    fn scene(&mut self, document: &Document) -> Result<(), Fault> {
+        let Some(scene) = document.default_scene().or_else(|| document.scenes().next()) else {
+            return Err(Fault::whole(FaultKind::Empty, "there is no scene in it"));
+        };
+        let mut seen = vec![false; document.nodes().len()];
+        let mut open: Vec<(Node<'_>, DMat4)> = scene.nodes().map(|n| (n, DMat4::IDENTITY)).collect();
+        open.reverse();
+        while let Some((node, above)) = open.pop() {
+            if std::mem::replace(&mut seen[node.index()], true) {
+                let detail = format!("node {} is reached twice", node.index());
+                return Err(Fault::whole(FaultKind::Syntax, detail));
+            }
+            let here = above * matrix(&node);
+            for primitive in node.mesh().iter().flat_map(|m| m.primitives()) {
+                self.primitive(&primitive, &here)?;
+            }
+            let children: Vec<_> = node.children().map(|n| (n, here)).collect();
+            open.extend(children.into_iter().rev());
+        }
+        Ok(())
+    }
+
+    fn primitive(&mut self, primitive: &Primitive<'_>, placed: &DMat4) -> Result<(), Fault> {
+        let mode = primitive.mode();
+        if !matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
+            self.passed_over += 1;
+            return Ok(());
+        }
+        let Some(positions) = primitive.get(&Semantic::Positions) else {
+            self.passed_over += 1;
+            return Ok(());
+        };
+        let points = accessor::reals::<3>(&positions, self.buffers)?;
+        let first = u32::try_from(self.positions.len()).unwrap_or(u32::MAX);
+        let place = |p: &[f32; 3]| placed.transform_point3(DVec3::from(p.map(f64::from))) + DVec3::ZERO;
+        self.positions.extend(points.iter().map(place));
+        let first_uv = self.texture_coordinates(primitive, points.len())?;
+        let indices = match primitive.indices() {
+            Some(indices) => accessor::indices(&indices, self.buffers)?,
+            None => (0..points.len() as u32).collect(),
+        };
+        if let Some(&bad) = indices.iter().find(|i| **i as usize >= points.len()) {
+            let detail = format!("index {bad} (from 0) names nothing, the primitive has {} nodes", points.len());
+            return Err(Fault::whole(FaultKind::Index, detail));
+        }
+        let mirrored = placed.determinant() < 0.0;
+        triangles(mode, &indices, |[a, b, c]| {
+            self.triangle(first, first_uv, if mirrored { [a, c, b] } else { [a, b, c] });
+        });
+        Ok(())
+    }
+
+    /// Appends set 0; says where it starts.
+    fn texture_coordinates(&mut self, primitive: &Primitive<'_>, nodes: usize) -> Result<Option<u32>, Fault> {
+        let Some(accessor) = primitive.get(&Semantic::TexCoords(0)) else { return Ok(None) };
+        let uvs = accessor::reals::<2>(&accessor, self.buffers)?;
+        if uvs.len() != nodes {
+            let detail = format!("{} texture coordinates for {nodes} nodes", uvs.len());
+            return Err(Fault::whole(FaultKind::Syntax, detail));
+        }
+        let first = self.uvs.len() as u32;
+        self.uvs.extend(uvs.iter().map(|&[u, v]| Vec2::new(u, 1.0 - v) + Vec2::ZERO));
+        Ok(Some(first))
+    }
+
+    fn triangle(&mut self, first: u32, first_uv: Option<u32>, corners: [u32; 3]) {
+        let number = u32::try_from(self.polygons.ends.len()).unwrap_or(u32::MAX);
+        let uv = |c: u32| first_uv.map_or(NO_UV, |f| f.saturating_add(c));
+        self.polygons.corners.extend(corners.map(|c| [first.saturating_add(c), uv(c)]));
+        self.polygons.close(number);
+    }
+}
+
+/// A node's place under its parent.
+fn matrix(node: &Node<'_>) -> DMat4 {
+    DMat4::from_cols_array_2d(&node.transform().matrix().map(|column| column.map(f64::from)))
+}
+
+/// The triangles of a list, strip or fan; corners left over at the end of a list make none.
+fn triangles(mode: Mode, indices: &[u32], mut each: impl FnMut([u32; 3])) {
+    match mode {
+        Mode::TriangleStrip => indices.windows(3).enumerate().for_each(|(i, w)| {
+            each(if i % 2 == 0 { [w[0], w[1], w[2]] } else { [w[1], w[0], w[2]] });
+        }),
+        Mode::TriangleFan => {
+            let pairs = indices.get(1..).unwrap_or_default().windows(2);
+            pairs.for_each(|w| each([indices[0], w[0], w[1]]));
+        }
+        _ => indices.as_chunks::<3>().0.iter().for_each(|t| each(*t)),
+    }
+}
+
+#[cfg(test)]
+mod tests;

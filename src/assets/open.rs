@@ -1,0 +1,124 @@
+//! From what a recording says it was recorded on, to a mesh and its settings.
+
+use std::path::{Path, PathBuf};
+
+use glam::{DVec3, Vec2};
+
+use super::error::{AssetError, Fault, FaultKind, Place};
+use super::scene::{self, SceneSettings};
+use super::source::{self, Source};
+use super::{CacheOptions, Note, builtin};
+use crate::mesh::{IndexedMesh, Mesh};
+use crate::recording::{InlineMesh, SceneRef};
+
+/// What a mesh made by code is called in a scene file.
+const BUILTIN: &str = "builtin:";
+
+/// A scene, ready to be cut.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The mesh, repaired where need be.
+    pub mesh: Mesh,
+    /// Everything else that the scene says.
+    pub settings: SceneSettings,
+    /// What was changed or passed over while reading.
+    pub notes: Vec<Note>,
+    /// blake3 of the settings; what a scene file looks like does not matter, what it says does.
+    pub scene_hash: [u8; 32],
+    /// blake3 of the mesh file's bytes; of a mesh inline or made by code, that of its positions, faces and texture coordinates.
+    pub mesh_hash: [u8; 32],
+    /// Whether the mesh came from the cache.
+    pub from_cache: bool,
+}
+
+struct Opened {
+    mesh: Mesh,
+    notes: Vec<Note>,
+    hash: [u8; 32],
+    from_cache: bool,
+}
+
+/// Opens a scene. Paths in it are relative to `base`, those in a scene file to that file.
+pub fn open(scene: &SceneRef, base: &Path, cache: &CacheOptions) -> Result<Loaded, AssetError> {
+    let (opened, settings) = match scene {
+        SceneRef::Builtin(name) => (open_builtin(name)?, SceneSettings::default()),
+        SceneRef::File(path) => open_scene_file(&base.join(path), cache)?,
+        SceneRef::Mesh(path) => (open_mesh(&base.join(path), cache)?, SceneSettings::default()),
+        SceneRef::Inline(inline) => (open_inline(inline)?, SceneSettings::default()),
+    };
+    let Opened { mesh, notes, hash: mesh_hash, from_cache } = opened;
+    Ok(Loaded { mesh, scene_hash: settings.hash(), settings, notes, mesh_hash, from_cache })
+}
+
+fn open_scene_file(path: &Path, cache: &CacheOptions) -> Result<(Opened, SceneSettings), AssetError> {
+    let bytes = source::read_file(path)?;
+    let (mesh, settings) = scene::parse(&bytes).map_err(|fault| fault.in_file(path))?;
+    let opened = match mesh.strip_prefix(BUILTIN) {
+        Some(name) => open_builtin(name),
+        None => open_mesh(&path.parent().unwrap_or(Path::new("")).join(&mesh), cache),
+    };
+    Ok((opened?, settings))
+}
+
+fn open_mesh(path: &Path, cache: &CacheOptions) -> Result<Opened, AssetError> {
+    let source = Source::read(path)?;
+    let hash = source.hash();
+    let key = cache.key(source.format as u8, &hash);
+    if let Some((mesh, notes)) = cache.load(&key) {
+        return Ok(Opened { mesh, notes, hash, from_cache: true });
+    }
+    let (mesh, notes) = source.build()?;
+    cache.store(&key, &mesh, &notes);
+    Ok(Opened { mesh, notes, hash, from_cache: false })
+}
+
+fn open_builtin(name: &str) -> Result<Opened, AssetError> {
+    let path = PathBuf::from(format!("{BUILTIN}{name}"));
+    let indexed =
+        builtin(name).map_err(|why| Fault::whole(FaultKind::Unsupported, why).in_file(&path))?;
+    as_it_is(&indexed).map_err(|fault| fault.in_file(&path))
+}
+
+fn open_inline(inline: &InlineMesh) -> Result<Opened, AssetError> {
+    from_inline(inline).and_then(|indexed| as_it_is(&indexed)).map_err(|fault| fault.in_file(Path::new("inline")))
+}
+
+/// An inline mesh's ids are named by the recording, so nothing is welded or repaired: it must be a mesh as it stands.
+fn from_inline(inline: &InlineMesh) -> Result<IndexedMesh, Fault> {
+    if !inline.uv.is_empty() && inline.uv.len() != inline.nodes.len() {
+        let detail = format!("{} texture coordinates for {} nodes", inline.uv.len(), inline.nodes.len());
+        return Err(Fault::new(Place::Field("uv".into()), FaultKind::Syntax, detail));
+    }
+    if let Some(node) = inline.uv.iter().position(|uv| !uv.iter().all(|v| v.is_finite())) {
+        let detail = format!("the texture coordinate of node {node} is not finite");
+        return Err(Fault::new(Place::Field("uv".into()), FaultKind::NotFinite, detail));
+    }
+    Ok(IndexedMesh {
+        positions: inline.nodes.iter().map(|&p| DVec3::from(p) + DVec3::ZERO).collect(),
+        faces: inline.faces.clone(),
+        uvs: inline.uv.iter().map(|&t| Vec2::from(t) + Vec2::ZERO).collect(),
+        face_uvs: if inline.uv.is_empty() { Vec::new() } else { inline.faces.clone() },
+        surfaces: Vec::new(),
+    })
+}
+
+fn as_it_is(indexed: &IndexedMesh) -> Result<Opened, Fault> {
+    let mesh = Mesh::build(indexed).map_err(|error| Fault::build(&error, |face| Place::Face(face as u64)))?;
+    Ok(Opened { mesh, notes: Vec::new(), hash: hash_of(indexed), from_cache: false })
+}
+
+/// blake3 of a face set: each list with its length in front, numbers little-endian.
+fn hash_of(mesh: &IndexedMesh) -> [u8; 32] {
+    let mut hasher = blake3::Hasher::new();
+    let mut list = |len: usize, bytes: Vec<u8>| {
+        hasher.update(&(len as u64).to_le_bytes());
+        hasher.update(&bytes);
+    };
+    let reals = mesh.positions.iter().flat_map(|p| p.to_array()).flat_map(f64::to_le_bytes);
+    list(mesh.positions.len(), reals.collect());
+    list(mesh.faces.len(), mesh.faces.iter().flatten().flat_map(|n| n.to_le_bytes()).collect());
+    let reals = mesh.uvs.iter().flat_map(|t| t.to_array()).flat_map(f32::to_le_bytes);
+    list(mesh.uvs.len(), reals.collect());
+    list(mesh.face_uvs.len(), mesh.face_uvs.iter().flatten().flat_map(|n| n.to_le_bytes()).collect());
+    *hasher.finalize().as_bytes()
+}
