@@ -46,7 +46,9 @@ impl CacheOptions {
         match std::env::var_os("LANCET_CACHE_DIR") {
             Some(folder) if folder.is_empty() => Self::off(),
             Some(folder) => Self::at(folder),
-            None => Self { folder: etcetera::choose_base_strategy().ok().map(|b| b.cache_dir().join("lancet")) },
+            None => {
+                Self { folder: etcetera::choose_base_strategy().ok().map(|b| b.cache_dir().join("lancet")) }
+            }
         }
     }
 

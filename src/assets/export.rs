@@ -109,7 +109,8 @@ mod tests {
     fn sample(textured: bool) -> Mesh {
         let third = 1.0 / 3.0;
         let faces = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
-        let uvs = vec![Vec2::new(0.1, 0.2), Vec2::new(1.0e-30, 0.7), Vec2::new(0.3, 1.0e30), Vec2::new(0.9, 0.9)];
+        let uvs =
+            vec![Vec2::new(0.1, 0.2), Vec2::new(1.0e-30, 0.7), Vec2::new(0.3, 1.0e30), Vec2::new(0.9, 0.9)];
         let mut face_uvs = faces.clone();
         face_uvs[3] = [3, 3, 0];
         let mesh = IndexedMesh {

@@ -175,13 +175,17 @@ pub fn write_facts(facts: &MeshFacts, notes: &[Note], out: &mut dyn Write) -> io
     let f = facts;
     let yes = |b: bool| if b { "yes" } else { "no" };
     let [low, high] = f.bounds;
-    let charts = if f.textured { format!("{}, {} seam edges", f.charts, f.seam_edges) } else { "none".into() };
+    let charts =
+        if f.textured { format!("{}, {} seam edges", f.charts, f.seam_edges) } else { "none".into() };
     let rows = [
         ("faces", f.faces.to_string()),
         ("nodes", format!("{} ({} vertices)", f.nodes, f.vertices)),
         ("edges", f.edges.to_string()),
         ("components", f.components.to_string()),
-        ("closed", format!("{} ({} boundary edges in {} loops)", yes(f.closed), f.boundary_edges, f.boundary_loops)),
+        (
+            "closed",
+            format!("{} ({} boundary edges in {} loops)", yes(f.closed), f.boundary_edges, f.boundary_loops),
+        ),
         ("manifold", yes(f.manifold).into()),
         ("oriented", yes(f.oriented).into()),
         ("euler", format!("{} (genus {})", f.euler, f.genus)),
@@ -227,7 +231,8 @@ mod tests {
                 }
             }
         }
-        mesh.uvs = (0..(n + 1) * (n + 1)).map(|k| Vec2::new((k / (n + 1)) as f32, (k % (n + 1)) as f32)).collect();
+        mesh.uvs =
+            (0..(n + 1) * (n + 1)).map(|k| Vec2::new((k / (n + 1)) as f32, (k % (n + 1)) as f32)).collect();
         Mesh::build(&mesh).expect("a torus")
     }
 

@@ -74,13 +74,14 @@ fn open_mesh(path: &Path, cache: &CacheOptions) -> Result<Opened, AssetError> {
 
 fn open_builtin(name: &str) -> Result<Opened, AssetError> {
     let path = PathBuf::from(format!("{BUILTIN}{name}"));
-    let indexed =
-        builtin(name).map_err(|why| Fault::whole(FaultKind::Unsupported, why).in_file(&path))?;
+    let indexed = builtin(name).map_err(|why| Fault::whole(FaultKind::Unsupported, why).in_file(&path))?;
     as_it_is(&indexed).map_err(|fault| fault.in_file(&path))
 }
 
 fn open_inline(inline: &InlineMesh) -> Result<Opened, AssetError> {
-    from_inline(inline).and_then(|indexed| as_it_is(&indexed)).map_err(|fault| fault.in_file(Path::new("inline")))
+    from_inline(inline)
+        .and_then(|indexed| as_it_is(&indexed))
+        .map_err(|fault| fault.in_file(Path::new("inline")))
 }
 
 /// An inline mesh's ids are named by the recording, so nothing is welded or repaired: it must be a mesh as it stands.

@@ -57,11 +57,8 @@ impl Triangulator {
         let mut normal = DVec3::ZERO;
         let ends = self.outline.iter().zip(self.outline.iter().cycle().skip(1));
         for (p, q) in ends {
-            normal += DVec3::new(
-                (p.y - q.y) * (p.z + q.z),
-                (p.z - q.z) * (p.x + q.x),
-                (p.x - q.x) * (p.y + q.y),
-            );
+            normal +=
+                DVec3::new((p.y - q.y) * (p.z + q.z), (p.z - q.z) * (p.x + q.x), (p.x - q.x) * (p.y + q.y));
         }
         let size = normal.abs();
         let flat: fn(&DVec3) -> DVec2 = if size.x >= size.y && size.x >= size.z {

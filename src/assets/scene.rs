@@ -147,7 +147,10 @@ mod tests {
         assert_eq!((mesh.as_str(), settings), ("head.obj", SceneSettings::default()));
         let text = br#"{"mesh": "builtin:bust", "unit_cm": 2.5, "target": [1, 2, 3], "distance": 9}"#;
         let (_, settings) = parse(text).expect("valid");
-        assert_eq!((settings.unit_cm, settings.target, settings.distance), (2.5, Some([1.0, 2.0, 3.0]), Some(9.0)));
+        assert_eq!(
+            (settings.unit_cm, settings.target, settings.distance),
+            (2.5, Some([1.0, 2.0, 3.0]), Some(9.0))
+        );
     }
 
     #[test]
@@ -155,13 +158,9 @@ mod tests {
         let place = |text: &str| parse(text.as_bytes()).expect_err("invalid").place;
         assert_eq!(place("{\n\"mesh\": \"a.obj\",\n\"colour\": 1}"), Place::Line(3));
         assert_eq!(place("{\"mesh\":"), Place::Line(1));
-        for (field, value) in [
-            ("unit_cm", "0"),
-            ("snap_px", "-1"),
-            ("fov_y", "3.5"),
-            ("zenith", "-0.1"),
-            ("distance", "0"),
-        ] {
+        for (field, value) in
+            [("unit_cm", "0"), ("snap_px", "-1"), ("fov_y", "3.5"), ("zenith", "-0.1"), ("distance", "0")]
+        {
             let text = format!("{{\"mesh\": \"a.obj\", \"{field}\": {value}}}");
             assert_eq!(place(&text), Place::Field(field.into()));
         }

@@ -116,7 +116,10 @@ impl Soup {
         if largest < limit {
             return Ok(());
         }
-        Err(Fault::whole(FaultKind::TooLarge, format!("{largest} elements are more than 32-bit ids can name")))
+        Err(Fault::whole(
+            FaultKind::TooLarge,
+            format!("{largest} elements are more than 32-bit ids can name"),
+        ))
     }
 
     fn reserve(&mut self, polygons: &Polygons) {

@@ -45,7 +45,8 @@ impl Source {
     /// Reads a file, and those that it names.
     pub(super) fn read(path: &Path) -> Result<Self, AssetError> {
         let format = Format::of(path).ok_or_else(|| {
-            Fault::whole(FaultKind::Unsupported, "a mesh file ends in .obj, .ply, .gltf or .glb").in_file(path)
+            Fault::whole(FaultKind::Unsupported, "a mesh file ends in .obj, .ply, .gltf or .glb")
+                .in_file(path)
         })?;
         let bytes = read_file(path)?;
         let buffers = if format == Format::Gltf { read_buffers(path, &bytes)? } else { Vec::new() };

@@ -18,8 +18,12 @@ pub(super) struct Args {
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
+    Pack(Pack),
     Unpack(Unpack),
     Info(Info),
+    Check(Check),
+    /// Say what the program and the machine are
+    Doctor,
     Schema(Schema),
     Completions(Completions),
     Man(Man),
@@ -66,6 +70,16 @@ pub(super) struct Info {
     /// The recording
     #[arg(value_name = "REC", value_hint = ValueHint::FilePath)]
     pub(super) recording: PathBuf,
+    #[command(flatten)]
+    pub(super) json: Json,
+}
+
+/// Say what a mesh is, and what had to be repaired to read it
+#[derive(Debug, clap::Args)]
+pub(super) struct Check {
+    /// A mesh (OBJ, glTF, PLY), a scene (.json) or builtin:NAME
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub(super) mesh: String,
     #[command(flatten)]
     pub(super) json: Json,
 }

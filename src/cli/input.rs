@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf, absolute};
 
 use super::args::Target;
 use super::failure::Failure;
-use crate::assets;
+use crate::assets::{self, CacheOptions};
 use crate::recording::{self, AnyRecording, SceneRef, Script};
 
 /// A recording, and the folder that its paths are relative to.
@@ -22,6 +22,17 @@ pub(super) fn read(path: &Path) -> Result<Input, Failure> {
         recording::read(&bytes).map_err(|e| Failure::about(path)(&e))?
     };
     Ok(Input { recording, base: folder(path) })
+}
+
+/// Reads a recording or a script, and looks up what the scene of a script hashes to.
+pub(super) fn hashed(path: &Path) -> Result<Input, Failure> {
+    let mut input = read(path)?;
+    if input.recording.hashes() == [[0; 32]; 2] {
+        let cache = CacheOptions::from_environment();
+        let loaded = assets::open(input.recording.scene(), &input.base, &cache).map_err(Failure::new)?;
+        input.recording.set_hashes([loaded.scene_hash, loaded.mesh_hash]);
+    }
+    Ok(input)
 }
 
 /// Reads a script.

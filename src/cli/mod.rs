@@ -7,13 +7,16 @@
 //! the progress line are looked after in one place, and a test can read what was written.
 
 mod args;
+mod check;
 mod completions;
 mod console;
+mod doctor;
 mod failure;
 mod info;
 mod input;
 mod json;
 mod man;
+mod pack;
 mod schema;
 mod table;
 #[cfg(test)]
@@ -62,8 +65,11 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, console: &mut Console<
 
 fn dispatch(command: Command, console: &mut Console<'_>) -> Done {
     match command {
+        Command::Pack(typed) => pack::run(&typed, console),
         Command::Unpack(typed) => unpack::run(&typed, console),
         Command::Info(typed) => info::run(&typed, console),
+        Command::Check(typed) => check::run(&typed, console),
+        Command::Doctor => doctor::run(console),
         Command::Schema(typed) => schema::run(&typed, console),
         Command::Completions(typed) => completions::run(&typed, console),
         Command::Man(typed) => man::run(&typed, console),

@@ -75,6 +75,43 @@ fn a_scene_is_found_from_where_the_script_goes() {
     assert!(std::fs::read_to_string(below).unwrap().contains(r#"{"mesh": "../head.obj"}"#));
 }
 
+/// A script of a tetrahedron.
+const TETRAHEDRON: &str =
+    r#"{"version": 1, "scene": {"mesh": "tetra.obj"}, "events": [{"click": [1.5, 2.5]}]}"#;
+const TETRA_OBJ: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+
+#[test]
+fn a_script_is_packed_and_comes_back() {
+    let (folder, script) = file("a.json", TETRAHEDRON.as_bytes());
+    std::fs::write(folder.path().join("tetra.obj"), TETRA_OBJ).unwrap();
+    let packed = folder.path().join("packed/a.lancet");
+    let packed = packed.to_str().unwrap();
+    assert_eq!(answer(&["pack", &script, "-o", packed]), "");
+    let info: serde_json::Value = serde_json::from_str(&answer(&["info", packed, "--json"])).unwrap();
+    assert_eq!((&info["scene"]["mesh"], &info["events"]), (&"../tetra.obj".into(), &1.into()));
+    assert_eq!(info["mesh_hash"].as_str().unwrap().len(), 64);
+    let again = answer(&["unpack", packed]).replace("../", "");
+    assert_eq!(again, answer(&["unpack", &script]));
+    let nowhere = complaint(&["pack", &fixture("v1.json").replace("v1", "none"), "-o", packed]);
+    assert!(nowhere.contains("none.json"), "{nowhere}");
+}
+
+#[test]
+fn a_mesh_is_told_about() {
+    let (_folder, mesh) = file("tetra.obj", TETRA_OBJ.as_bytes());
+    let out = answer(&["check", &mesh]);
+    assert!(out.contains("closed") && out.contains("genus 0"), "{out}");
+    let facts: serde_json::Value = serde_json::from_str(&answer(&["check", &mesh, "--json"])).unwrap();
+    assert_eq!((&facts["faces"], &facts["euler"], &facts["closed"]), (&4.into(), &2.into(), &true.into()));
+    let (_folder, broken) = file("broken.obj", b"v 0 0 0\nf 1 2 3\n");
+    assert!(complaint(&["check", &broken]).contains("broken.obj: line 2"));
+}
+
+#[test]
+fn the_doctor_answers() {
+    assert!(answer(&["doctor"]).contains(env!("CARGO_PKG_VERSION")));
+}
+
 #[test]
 fn info_says_what_is_in_it() {
     let out = answer(&["info", &fixture("v1.lancet")]);

@@ -39,7 +39,8 @@ fn from_uri(uri: &str) -> Result<Uri, Fault> {
         return Err(Fault::whole(FaultKind::Unsupported, detail));
     }
     let name = String::from_utf8(percent_decoded(uri));
-    name.map(|n| Uri::File(n.into())).map_err(|_| Fault::whole(FaultKind::Syntax, format!("{uri:?} is not text")))
+    name.map(|n| Uri::File(n.into()))
+        .map_err(|_| Fault::whole(FaultKind::Syntax, format!("{uri:?} is not text")))
 }
 
 /// `%20` and the like as bytes; a `%` that starts nothing stays.

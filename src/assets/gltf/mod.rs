@@ -96,7 +96,8 @@ impl Collector<'_> {
             None => (0..points.len() as u32).collect(),
         };
         if let Some(&bad) = indices.iter().find(|i| **i as usize >= points.len()) {
-            let detail = format!("index {bad} (from 0) names nothing, the primitive has {} nodes", points.len());
+            let detail =
+                format!("index {bad} (from 0) names nothing, the primitive has {} nodes", points.len());
             return Err(Fault::whole(FaultKind::Index, detail));
         }
         let mirrored = placed.determinant() < 0.0;

@@ -101,7 +101,11 @@ impl<'a> Cursor<'a> {
     #[inline]
     pub(super) fn number<F: FastFloat>(&mut self) -> Result<F, Fault> {
         if self.at_end() {
-            return Err(Fault::line(self.line, FaultKind::Syntax, "a number is missing at the end of the line"));
+            return Err(Fault::line(
+                self.line,
+                FaultKind::Syntax,
+                "a number is missing at the end of the line",
+            ));
         }
         match fast_float2::parse_partial(&self.bytes[self.at..]) {
             Ok((value, length)) if self.is_word_end(self.at + length) => {
@@ -149,7 +153,11 @@ impl<'a> Cursor<'a> {
     /// Requires that the word ends here.
     #[inline]
     pub(super) fn end_of_word(&self) -> Result<(), Fault> {
-        if self.is_word_end(self.at) { Ok(()) } else { Err(self.fault(FaultKind::Syntax, "follows a corner")) }
+        if self.is_word_end(self.at) {
+            Ok(())
+        } else {
+            Err(self.fault(FaultKind::Syntax, "follows a corner"))
+        }
     }
 
     #[inline]

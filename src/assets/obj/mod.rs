@@ -12,15 +12,31 @@ mod cursor;
 
 use glam::{DVec3, Vec2};
 
+use super::Note;
 use super::error::{Fault, FaultKind};
 use super::soup::{NO_UV, Polygons, Soup, Unit};
-use super::Note;
 use cursor::Cursor;
 
 /// Statements that say nothing about nodes, texture coordinates or faces.
 const PASSED_OVER: &[&[u8]] = &[
-    b"vn", b"vp", b"g", b"o", b"s", b"usemtl", b"mtllib", b"l", b"p", b"mg", b"lod", b"bevel", b"c_interp",
-    b"d_interp", b"usemap", b"maplib", b"shadow_obj", b"trace_obj",
+    b"vn",
+    b"vp",
+    b"g",
+    b"o",
+    b"s",
+    b"usemtl",
+    b"mtllib",
+    b"l",
+    b"p",
+    b"mg",
+    b"lod",
+    b"bevel",
+    b"c_interp",
+    b"d_interp",
+    b"usemap",
+    b"maplib",
+    b"shadow_obj",
+    b"trace_obj",
 ];
 
 /// Reads an OBJ file.
@@ -46,7 +62,8 @@ impl<'a> Reader<'a> {
     fn new(bytes: &'a [u8]) -> Self {
         // A node takes some 30 bytes, a face as many, and there are twice as many faces.
         let guess = bytes.len() / 128;
-        let polygons = Polygons { corners: Vec::with_capacity(6 * guess), ends: Vec::with_capacity(2 * guess) };
+        let polygons =
+            Polygons { corners: Vec::with_capacity(6 * guess), ends: Vec::with_capacity(2 * guess) };
         let (positions, uvs) = (Vec::with_capacity(guess), Vec::new());
         Self { cursor: Cursor::new(bytes), positions, uvs, polygons, unknown: None }
     }
@@ -127,7 +144,8 @@ impl<'a> Reader<'a> {
     fn resolve(&self, index: i64, so_far: usize) -> Result<u32, Fault> {
         let zero_based = if index < 0 { so_far as i64 + index } else { index - 1 };
         u32::try_from(zero_based).ok().filter(|&i| i != NO_UV).ok_or_else(|| {
-            let detail = format!("index {index} names nothing, there are {so_far} so far and they count from 1");
+            let detail =
+                format!("index {index} names nothing, there are {so_far} so far and they count from 1");
             Fault::line(self.cursor.line, FaultKind::Index, detail)
         })
     }
@@ -136,7 +154,11 @@ impl<'a> Reader<'a> {
         let line = self.cursor.line;
         let note = self.unknown.get_or_insert_with(|| {
             let word = String::from_utf8_lossy(&keyword[..keyword.len().min(20)]);
-            Note::new("statement-unknown", 0, format!("statements passed over, the first at line {line}: {word:?}"))
+            Note::new(
+                "statement-unknown",
+                0,
+                format!("statements passed over, the first at line {line}: {word:?}"),
+            )
         });
         note.count += 1;
     }

@@ -17,7 +17,8 @@ use body::{Body, Row};
 use header::{Element, Header};
 
 /// Pairs of names under which texture coordinates are found, the usual ones first.
-const UV_NAMES: [[&str; 2]; 4] = [["s", "t"], ["u", "v"], ["texture_u", "texture_v"], ["texture_s", "texture_t"]];
+const UV_NAMES: [[&str; 2]; 4] =
+    [["s", "t"], ["u", "v"], ["texture_u", "texture_v"], ["texture_s", "texture_t"]];
 
 /// Reads a PLY file.
 pub(super) fn read(bytes: &[u8]) -> Result<Soup, Fault> {
@@ -29,7 +30,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<Soup, Fault> {
             "vertex" => found.read_vertices(&mut body, element)?,
             "face" => found.read_faces(&mut body, element)?,
             "tristrips" => {
-                return Err(Fault::whole(FaultKind::Unsupported, "faces as triangle strips are not supported"));
+                return Err(Fault::whole(
+                    FaultKind::Unsupported,
+                    "faces as triangle strips are not supported",
+                ));
             }
             _ => body.rows(element, |_, _| Ok(()))?,
         }
@@ -71,9 +75,8 @@ impl Found {
         let uvs = element.list("texcoord");
         let mut number = 0;
         body.rows(element, |row, _| {
-            self.face(row, number, nodes, uvs).map_err(|(kind, detail)| {
-                Fault::new(Place::Face(number.into()), kind, detail)
-            })?;
+            self.face(row, number, nodes, uvs)
+                .map_err(|(kind, detail)| Fault::new(Place::Face(number.into()), kind, detail))?;
             number = number.saturating_add(1);
             Ok(())
         })
@@ -88,7 +91,10 @@ impl Found {
     ) -> Result<(), (FaultKind, String)> {
         let (corners, uvs) = (row.list(nodes), uvs.map_or(&[][..], |i| row.list(i)));
         if corners.len() < 3 {
-            return Err((FaultKind::Syntax, format!("a face needs three corners, this one has {}", corners.len())));
+            return Err((
+                FaultKind::Syntax,
+                format!("a face needs three corners, this one has {}", corners.len()),
+            ));
         }
         let own = !uvs.is_empty();
         if own && uvs.len() != 2 * corners.len() {
@@ -120,7 +126,11 @@ impl Found {
 /// A corner's number as a node.
 fn index(value: f64) -> Result<u32, (FaultKind, String)> {
     let whole = value >= 0.0 && value < f64::from(u32::MAX) && value.trunc() == value;
-    if whole { Ok(value as u32) } else { Err((FaultKind::Index, format!("{value} is not the number of a node"))) }
+    if whole {
+        Ok(value as u32)
+    } else {
+        Err((FaultKind::Index, format!("{value} is not the number of a node")))
+    }
 }
 
 #[cfg(test)]

@@ -87,9 +87,10 @@ fn drop_faces(soup: &mut Soup, what: &str, why: &str, repeated: &[usize], flat: 
     if repeated.is_empty() && flat.is_empty() {
         return;
     }
-    for (what, why, faces) in
-        [(what, why, repeated), ("face-without-area", "faces with corners exactly in line were dropped", flat)]
-    {
+    for (what, why, faces) in [
+        (what, why, repeated),
+        ("face-without-area", "faces with corners exactly in line were dropped", flat),
+    ] {
         note_faces(soup, what, why, faces);
     }
     let mut keep = vec![true; soup.mesh.faces.len()];
