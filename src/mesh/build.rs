@@ -194,7 +194,7 @@ impl Mesh {
 
 /// Makes tangent and bitangent orthogonal to the normal and to each other, keeping the bitangent's side; any frame where the
 /// texture coordinates give none.
-pub(super) fn orthonormal(mut v: Vertex) -> Vertex {
+pub(crate) fn orthonormal(mut v: Vertex) -> Vertex {
     let n = v.normal;
     let any = if n.x.abs() < 0.9 { Vec3::X } else { Vec3::Y };
     let project = |d: Vec3| (d - n * n.dot(d)).try_normalize();

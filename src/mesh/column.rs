@@ -91,6 +91,11 @@ impl<T: Copy + PartialEq> Column<T> {
         ColumnMark { log: self.log.len(), len: self.data.len() }
     }
 
+    /// Where the open transaction began.
+    pub(super) fn beginning(&self) -> ColumnMark {
+        ColumnMark { log: 0, len: self.start.unwrap_or(self.data.len()) }
+    }
+
     /// The elements written or appended since a mark of the open transaction, ascending, each once.
     pub(super) fn touched_since(&self, mark: ColumnMark) -> Vec<u32> {
         let mut touched: Vec<u32> = self.log[mark.log..].iter().map(|w| w.0).collect();

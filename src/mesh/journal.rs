@@ -124,6 +124,16 @@ impl Mesh {
         }
     }
 
+    /// The beginning of the open transaction.
+    pub fn beginning(&self) -> Mark {
+        Mark {
+            positions: self.positions.beginning(),
+            vertices: self.vertices.beginning(),
+            edges: self.edges.beginning(),
+            faces: self.faces.beginning(),
+        }
+    }
+
     /// What the open transaction touched since a mark.
     pub fn touched_since(&self, mark: Mark) -> Touched {
         Touched {

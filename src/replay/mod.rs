@@ -12,6 +12,7 @@
 //! from the first state, which undoing everything always gives back.
 
 mod digest;
+mod open;
 mod session;
 mod stages;
 #[cfg(test)]
@@ -20,6 +21,7 @@ mod timeline;
 #[cfg(test)]
 pub(crate) mod toy;
 
+pub use open::{OpenError, open, open_file};
 pub use session::Session;
 pub use stages::{Plant, Planting};
 

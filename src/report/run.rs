@@ -132,11 +132,29 @@ impl RunReport {
         events + self.end.as_ref().map_or(0, |end| end.checks.len())
     }
 
+    /// The first of several runs of one recording, each stage with the median of its times.
+    pub fn with_median_times(runs: &[Self]) -> Option<Self> {
+        let mut report = runs.first()?.clone();
+        for (e, event) in report.events.iter_mut().enumerate() {
+            for (s, stage) in event.stages.iter_mut().enumerate() {
+                let times = runs.iter().filter_map(|run| Some(run.events.get(e)?.stages.get(s)?.us));
+                stage.us = median(times.collect());
+            }
+        }
+        Some(report)
+    }
+
     /// The same with every time at zero: two runs of one recording are compared so.
     #[must_use]
     pub fn without_times(&self) -> Self {
         Self { events: self.events.iter().map(EventReport::without_times).collect(), ..self.clone() }
     }
+}
+
+/// The middle value, the lower of two; 0 of none.
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len().saturating_sub(1) / 2).copied().unwrap_or(0.0)
 }
 
 #[cfg(test)]
@@ -172,6 +190,19 @@ mod tests {
         assert_eq!(json["events"][0]["stages"][0]["us"], 3.5);
         assert_eq!(json["totals"]["findings"], 1);
         assert_eq!(serde_json::from_value::<RunReport>(json).expect("and back"), run);
+    }
+
+    #[test]
+    fn several_runs_have_median_times() {
+        let runs = [9.0, 1.0, 4.0].map(|us| {
+            let mut run = sample();
+            run.events[0].stages[0].us = us;
+            run
+        });
+        let median = RunReport::with_median_times(&runs).expect("there are runs");
+        assert_eq!(median.events[0].stages[0].us, 4.0);
+        assert_eq!(median.without_times(), runs[0].without_times());
+        assert_eq!(RunReport::with_median_times(&[]), None);
     }
 
     #[test]

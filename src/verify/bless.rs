@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::compare::compare;
 use super::golden::{Found, Stored};
-use super::one::{Failure, Open, run};
+use super::one::{Failure, Open, open_file, run};
 use super::suite::{find, in_parallel};
 use super::{Divergence, Progress, facts, home};
 use crate::assets;
@@ -82,7 +82,11 @@ impl BlessReport {
 }
 
 /// Replays recordings, and folders of them, and writes what they are now as their goldens.
-pub fn bless(
+pub fn bless(paths: &[PathBuf], options: &BlessOptions, progress: &dyn Progress) -> BlessReport {
+    bless_with(paths, options, progress, &open_file)
+}
+
+pub(super) fn bless_with(
     paths: &[PathBuf],
     options: &BlessOptions,
     progress: &dyn Progress,

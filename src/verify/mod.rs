@@ -24,6 +24,6 @@ mod tests;
 pub use bless::{BlessOptions, BlessReport, Blessed, Change, bless};
 pub use compare::Divergence;
 pub use diff::{Diff, Side, diff};
-pub use one::{Open, failure};
+pub use one::failure;
 pub use report::{RecordingReport, Verdict, VerifyReport};
 pub use suite::{Progress, VerifyOptions, verify};

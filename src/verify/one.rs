@@ -9,10 +9,15 @@ use super::compare::{Comparison, compare};
 use super::golden::{Found, Stored};
 use super::report::{RecordingReport, Verdict};
 use super::{VerifyOptions, home};
-use crate::replay::{Options, Planting, Replay};
+use crate::replay::{self, Options, Planting, Replay};
 
 /// Opens a recording for replay. An error says what is wrong with which file.
-pub type Open<'a> = dyn Fn(&Path, Options) -> Result<Box<dyn Replay>, String> + Sync + 'a;
+pub(super) type Open<'a> = dyn Fn(&Path, Options) -> Result<Box<dyn Replay>, String> + Sync + 'a;
+
+/// Opens a recording's file.
+pub(super) fn open_file(path: &Path, options: Options) -> Result<Box<dyn Replay>, String> {
+    replay::open_file(path, options).map_err(|error| error.to_string())
+}
 
 /// Why there is no run to look at.
 pub(super) enum Failure {

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use super::one::{Open, verify_one};
+use super::one::{Open, open_file, verify_one};
 use super::report::{RecordingReport, Verdict, VerifyReport};
 use super::{golden, home};
 use crate::assets;
@@ -37,7 +37,11 @@ impl Progress for () {
 }
 
 /// Replays recordings, and folders of them, and compares them with their goldens.
-pub fn verify(
+pub fn verify(paths: &[PathBuf], options: &VerifyOptions, progress: &dyn Progress) -> VerifyReport {
+    verify_with(paths, options, progress, &open_file)
+}
+
+pub(super) fn verify_with(
     paths: &[PathBuf],
     options: &VerifyOptions,
     progress: &dyn Progress,

@@ -2,8 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+use super::bless::bless_with;
+use super::suite::verify_with;
 use super::*;
-use crate::assets::{list_files, read_file, write_file};
+use crate::assets::{self, CacheOptions, list_files, read_file, write_file};
+use crate::recording::{Script, to_bytes};
 use crate::replay::toy::{Toy, ToyEvent, ToyState};
 use crate::replay::{Options, Replay, Session};
 use ToyEvent::{Add, Checkpoint, Click, Undo};
@@ -44,7 +47,7 @@ impl Suite {
     }
 
     fn bless(&self, options: &BlessOptions) -> BlessReport {
-        bless(&[self.at("recordings")], options, &(), &open)
+        bless_with(&[self.at("recordings")], options, &(), &open)
     }
 
     fn blessed(self) -> Self {
@@ -58,7 +61,7 @@ impl Suite {
     }
 
     fn verify_as(&self, options: &VerifyOptions) -> VerifyReport {
-        verify(&[self.at("recordings")], options, &(), &open)
+        verify_with(&[self.at("recordings")], options, &(), &open)
     }
 }
 
@@ -300,7 +303,7 @@ fn a_filter_picks_by_name() {
         ("wound/a", 0)
     );
     assert_eq!(filtered("nothing-like-it").exit_code(), 2);
-    let nowhere = verify(&[suite.at("recordings/none")], &VerifyOptions::default(), &(), &open);
+    let nowhere = verify_with(&[suite.at("recordings/none")], &VerifyOptions::default(), &(), &open);
     assert_eq!(nowhere.exit_code(), 2);
 }
 
@@ -313,4 +316,28 @@ fn a_failure_goes_by_the_name_of_its_invariant() {
     assert_eq!(failure(replay(cut())), None);
     assert_eq!(failure(replay(vec![Add(1, 1.0), Add(1, -90.0)])), Some("AD/sum".into()));
     assert_eq!(failure(replay(vec![Click(6), Click(8)])), None);
+}
+
+/// Two triangles of a square, cut from pixel to pixel.
+const SQUARE: &str = r#"{ "version": 1, "viewport": [100, 100], "seed": 3,
+    "scene": { "inline": { "nodes": [[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], "faces": [[0, 1, 2], [0, 2, 3]] } },
+    "events": [ { "mode": "merge" }, { "click": [45, 40] }, { "click": [60, 55] }, { "checkpoint": "cut" } ] }"#;
+
+#[test]
+fn a_corrupted_node_of_a_real_cut_is_named() {
+    let suite = Suite::new(&[]);
+    let mut recording = Script::parse(SQUARE.as_bytes()).expect("a script").unhashed().clone();
+    let scene = assets::open(recording.scene(), Path::new(""), &CacheOptions::off()).expect("a scene");
+    recording.set_hashes([scene.scene_hash, scene.mesh_hash]);
+    suite.put("recordings/square.lancet", &to_bytes(&recording).expect("it has a form"));
+    let paths = [suite.at("recordings")];
+    assert_eq!(bless(&paths, &because("a test"), &()).exit_code(), 0);
+    let report = verify(&paths, &VerifyOptions::default(), &());
+    assert_eq!(report.exit_code(), 0, "{report:?}");
+    let replay = Options { plant: Some("2.MC:nodes:n5:2".parse().expect("a place")), ..Options::default() };
+    let report = verify(&paths, &VerifyOptions { replay, ..VerifyOptions::default() }, &());
+    assert_eq!(report.exit_code(), 1);
+    let text = only(&report).divergence.as_ref().expect("it is found").to_string();
+    assert!(text.starts_with("event 2, stage MC, buffer nodes, element n5: expected ("), "{text}");
+    assert!(text.ends_with("(2 ulp)"), "{text}");
 }

@@ -1,0 +1,299 @@
+//! The inside of the cut: two walls from the rims to the bottom (Lam 2016, §4.3.2).
+//!
+//! The thesis digs along the first view ray by one depth for all. At a grazing view that runs under the skin, and in an ear it comes out at the back.
+//! Here each bottom node goes along minus the normal, averaged over its neighbours on the line and projected into the cutting plane; at
+//! most half as deep as there is tissue; and less, by halves, wherever the gutter would cross the surface or itself. Crossing is
+//! decided by exact signs, so that the gutter crosses nothing is a promise.
+//!
+//! The gutter is a chart of its own in a texture of its own: u runs along the line, v from 1 at the rims to 0 at the bottom.
+
+use std::ops::RangeInclusive;
+
+use glam::{DVec3, Vec2};
+use rustc_hash::FxHashMap;
+
+use super::slit::Slit;
+use super::{Carved, Opened, Place, least};
+use crate::engine::wound::merge::{Line, face_box};
+use crate::geometry::bvh::{Aabb, Ray};
+use crate::geometry::crossing::{Corners, cross};
+use crate::mesh::{Edge, EdgeId, Face, FaceId, Mesh, NodeId, Surface, Vertex, VertexId};
+use crate::report::Rejection;
+
+/// How much of the tissue below a node its gutter may take.
+const SHARE_OF_TISSUE: f64 = 0.5;
+/// How often a depth is halved to keep the gutter from crossing something.
+const HALVINGS: usize = 48;
+
+/// The direction in which the gutter goes down from each opened node: in the cutting plane, unit length.
+pub fn inward(place: &Place<'_>, line: &Line, range: &RangeInclusive<usize>) -> Vec<DVec3> {
+    let mesh = &*place.mesh;
+    let nodes = &line.nodes[range.clone()];
+    let normals: Vec<DVec3> = nodes.iter().map(|&n| node_normal(mesh, n)).collect();
+    let averaged = |i: usize| normals[i.saturating_sub(1)..(i + 2).min(normals.len())].iter().sum::<DVec3>();
+    (0..nodes.len()).map(|i| in_plane(place, averaged(i), tangent(mesh, nodes, i))).collect()
+}
+
+fn tangent(mesh: &Mesh, nodes: &[NodeId], i: usize) -> DVec3 {
+    mesh.position(nodes[(i + 1).min(nodes.len() - 1)]) - mesh.position(nodes[i.saturating_sub(1)])
+}
+
+fn node_normal(mesh: &Mesh, node: NodeId) -> DVec3 {
+    let areas = mesh.fan(node).map(|(f, _)| {
+        let [a, b, c] = mesh.triangle(f);
+        (b - a).cross(c - a)
+    });
+    areas.sum::<DVec3>().normalize_or_zero()
+}
+
+/// Minus a normal, projected into the plane. Where the surface lies in the plane nothing is left of it: then across the line,
+/// away from the eye.
+fn in_plane(place: &Place<'_>, normal: DVec3, tangent: DVec3) -> DVec3 {
+    let unit = place.plane.unit();
+    let projected = normal - unit * unit.dot(normal);
+    if projected.length() > 1e-3 * normal.length() {
+        return -projected.normalize();
+    }
+    let [eye, a, _] = place.plane.points;
+    let across = tangent.cross(unit).normalize_or(DVec3::Z);
+    if across.dot(a - eye) < 0.0 { -across } else { across }
+}
+
+/// Makes the gutter, as deep as it can be.
+pub fn dig(
+    place: &mut Place<'_>,
+    carved: &mut Carved,
+    slit: &Slit,
+    inward: &[DVec3],
+) -> Result<(), Rejection> {
+    bound_depths(place, carved, inward)?;
+    let last = carved.opened.len() - 1;
+    for i in 1..last {
+        let o = carved.opened[i];
+        carved.opened[i].bottom = place.mesh.push_node(o.at + inward[i] * o.depth);
+    }
+    carved.opened[0].depth = 0.0;
+    carved.opened[last].depth = 0.0;
+    let links = build(place.mesh, carved, slit);
+    carved.gutter = links.iter().flatten().copied().collect();
+    for (i, link) in links.iter().enumerate() {
+        let beside = slit.right_faces[i].0;
+        link.iter().for_each(|_| place.bvh.insert(beside, &|f| face_box(place.mesh, f)));
+    }
+    keep_clear(place, carved, inward, &links)?;
+    shade(place.mesh, carved);
+    Ok(())
+}
+
+/// Half of the tissue below each node, or the planned depth if that is less.
+fn bound_depths(place: &Place<'_>, carved: &mut Carved, inward: &[DVec3]) -> Result<(), Rejection> {
+    let last = carved.opened.len() - 1;
+    for i in 1..last {
+        let o = &mut carved.opened[i];
+        let tissue = thickness(place, o, inward[i], o.depth / SHARE_OF_TISSUE);
+        o.depth = o.depth.min(tissue * SHARE_OF_TISSUE);
+        if o.depth < least(place.largest) {
+            let detail = format!("there are {tissue:e} of tissue below {}", o.left);
+            return Err(Rejection::new("no-tissue", detail));
+        }
+    }
+    Ok(())
+}
+
+/// How far it is to the next face below a node, not counting those that meet there; at least `enough` is not told apart.
+fn thickness(place: &Place<'_>, o: &Opened, direction: DVec3, enough: f64) -> f64 {
+    let mut nearest = enough;
+    place.bvh.along(Ray { origin: o.at, direction }, |item| {
+        let face = place.mesh.face(FaceId(item));
+        if face.corner(o.left).is_none() && face.corner(o.right).is_none() {
+            let t = distance_along(o.at, direction, place.mesh.triangle(FaceId(item)));
+            nearest = t.map_or(nearest, |t| nearest.min(t));
+        }
+        nearest
+    });
+    nearest
+}
+
+/// Where a ray meets a triangle (Möller and Trumbore 1997); rounded, as nothing but a bound comes of it.
+fn distance_along(origin: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f64> {
+    let (e1, e2) = (b - a, c - a);
+    let p = direction.cross(e2);
+    let det = e1.dot(p);
+    let s = origin - a;
+    let q = s.cross(e1);
+    let (u, v, t) = (s.dot(p) / det, direction.dot(q) / det, e2.dot(q) / det);
+    (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0).then_some(t)
+}
+
+/// The gutter's faces, link by link, and the edges between them.
+fn build(mesh: &mut Mesh, carved: &Carved, slit: &Slit) -> Vec<Vec<FaceId>> {
+    let vertices: Vec<[VertexId; 3]> = carved.opened.iter().map(|o| rim_vertices(mesh, carved, o)).collect();
+    let mut edges: FxHashMap<(NodeId, NodeId), EdgeId> = FxHashMap::default();
+    for i in 0..slit.left_edges.len() {
+        edges.insert(key(slit.left[i], slit.left[i + 1]), slit.left_edges[i]);
+        edges.insert(key(slit.right[i], slit.right[i + 1]), slit.right_edges[i]);
+    }
+    let corner = |i: usize, which: usize| {
+        let o = &carved.opened[i];
+        ([o.left, o.right, o.bottom][which], vertices[i][which])
+    };
+    let (left, right, bottom) = (0, 1, 2);
+    let last = carved.opened.len() - 1;
+    let mut links = Vec::with_capacity(last);
+    for i in 0..last {
+        let mut triangles = Vec::with_capacity(4);
+        if i > 0 {
+            triangles.push([corner(i + 1, left), corner(i, left), corner(i, bottom)]);
+            triangles.push([corner(i, right), corner(i + 1, right), corner(i, bottom)]);
+        }
+        if i + 1 < last {
+            triangles.push([corner(i + 1, left), corner(i, bottom), corner(i + 1, bottom)]);
+            triangles.push([corner(i, bottom), corner(i + 1, right), corner(i + 1, bottom)]);
+        }
+        links.push(triangles.into_iter().map(|t| add_face(mesh, t, &mut edges)).collect());
+    }
+    for i in 1..last {
+        let bottom = carved.opened[i].bottom;
+        let edge = edges[&key(carved.opened[i].left, bottom)];
+        let face = mesh.edge(edge).faces.into_iter().find_map(FaceId::some).unwrap_or(FaceId::NONE);
+        mesh.set_anchor(bottom, face);
+    }
+    links
+}
+
+fn key(a: NodeId, b: NodeId) -> (NodeId, NodeId) {
+    (a.min(b), a.max(b))
+}
+
+/// The gutter's own vertices at an opened node: left rim, right rim, bottom. One for all three at an end.
+fn rim_vertices(mesh: &mut Mesh, carved: &Carved, o: &Opened) -> [VertexId; 3] {
+    let u = (o.s / carved.length) as f32;
+    let mut make = |v: f32| mesh.push_vertex(Vertex { uv: Vec2::new(u, v), ..Vertex::default() });
+    if o.left == o.right {
+        return [make(1.0); 3];
+    }
+    [make(1.0), make(1.0), make(0.0)]
+}
+
+fn add_face(
+    mesh: &mut Mesh,
+    corners: [(NodeId, VertexId); 3],
+    edges: &mut FxHashMap<(NodeId, NodeId), EdgeId>,
+) -> FaceId {
+    let id = FaceId::of(mesh.face_count());
+    let sides = [0, 1, 2].map(|i| {
+        let nodes = [corners[i].0, corners[(i + 1) % 3].0];
+        let edge = *edges
+            .entry(key(nodes[0], nodes[1]))
+            .or_insert_with(|| mesh.push_edge(Edge { nodes, faces: [FaceId::NONE; 2] }));
+        let mut value = mesh.edge(edge);
+        value.faces[usize::from(value.nodes[0] != nodes[0])] = id;
+        mesh.set_edge(edge, value);
+        edge
+    });
+    mesh.push_face(Face {
+        nodes: corners.map(|c| c.0),
+        vertices: corners.map(|c| c.1),
+        edges: sides,
+        surface: Surface::Gutter,
+    })
+}
+
+/// Makes the gutter shallower wherever it crosses something, until it crosses nothing.
+fn keep_clear(
+    place: &mut Place<'_>,
+    carved: &mut Carved,
+    inward: &[DVec3],
+    links: &[Vec<FaceId>],
+) -> Result<(), Rejection> {
+    let link_of: FxHashMap<FaceId, usize> =
+        links.iter().enumerate().flat_map(|(i, l)| l.iter().map(move |&f| (f, i))).collect();
+    let mut halved = vec![0usize; carved.opened.len()];
+    let mut suspects: Vec<usize> = (0..links.len()).collect();
+    while !suspects.is_empty() {
+        let mut shallow: Vec<usize> = Vec::new();
+        for &i in &suspects {
+            for other in crossed(place, &links[i]) {
+                shallow.extend([i, i + 1]);
+                shallow.extend(link_of.get(&other).into_iter().flat_map(|&j| [j, j + 1]));
+            }
+        }
+        shallow.sort_unstable();
+        shallow.dedup();
+        shallow.retain(|&i| carved.opened[i].left != carved.opened[i].right);
+        for &i in &shallow {
+            halved[i] += 1;
+            let o = &mut carved.opened[i];
+            o.depth *= 0.5;
+            if halved[i] > HALVINGS || o.depth < least(place.largest) {
+                let detail = format!("however shallow, the gutter at {} crosses something", o.left);
+                return Err(Rejection::new("no-tissue", detail));
+            }
+            place.mesh.set_position(o.bottom, o.at + inward[i] * o.depth);
+        }
+        suspects =
+            shallow.iter().flat_map(|&i| [i.saturating_sub(1), i]).filter(|&l| l < links.len()).collect();
+        suspects.dedup();
+        for &l in &suspects {
+            links[l].iter().for_each(|f| place.bvh.update(f.0, &|f| face_box(place.mesh, f)));
+        }
+    }
+    carved.shallowed = carved.opened.iter().filter(|o| o.left != o.right && o.depth < carved.depth).count();
+    Ok(())
+}
+
+/// The faces that a link of the gutter crosses.
+fn crossed(place: &Place<'_>, link: &[FaceId]) -> Vec<FaceId> {
+    let mesh = &*place.mesh;
+    let corners = |f: FaceId| Corners { ids: mesh.face(f).nodes.map(|n| n.0), at: mesh.triangle(f) };
+    let walls: Vec<(Corners, Aabb)> = link.iter().map(|&f| (corners(f), face_box(mesh, f.0))).collect();
+    let points: Vec<DVec3> = walls.iter().flat_map(|w| w.0.at).collect();
+    let mut found = Vec::new();
+    place.bvh.overlapping(&Aabb::around(&points), |item| {
+        let bounds = face_box(mesh, item);
+        let other = FaceId(item);
+        let near = walls.iter().filter(|w| w.1.overlaps(&bounds));
+        if !link.contains(&other) && near.into_iter().any(|w| cross(&w.0, &corners(other))) {
+            found.push(other);
+        }
+        true
+    });
+    found
+}
+
+/// Normals and tangents of the gutter's own vertices, from its faces.
+fn shade(mesh: &mut Mesh, carved: &Carved) {
+    let Some(along) = carved.opened.last().map(|o| (o.at - carved.opened[0].at).normalize_or(DVec3::X))
+    else {
+        return;
+    };
+    let mut sums: Vec<(VertexId, DVec3)> = Vec::with_capacity(carved.gutter.len() * 3);
+    for &f in &carved.gutter {
+        let [a, b, c] = mesh.triangle(f);
+        let normal = (b - a).cross(c - a);
+        sums.extend(mesh.face(f).vertices.map(|v| (v, normal)));
+    }
+    sums.sort_by_key(|s| s.0);
+    for group in sums.chunk_by(|a, b| a.0 == b.0) {
+        let normal = group.iter().map(|g| g.1).sum::<DVec3>().normalize_or(DVec3::Y);
+        let mut vertex = mesh.vertex(group[0].0);
+        (vertex.normal, vertex.tangent) = (normal.as_vec3(), along.as_vec3());
+        mesh.set_vertex(group[0].0, crate::mesh::build::orthonormal(vertex));
+    }
+}
+
+/// Whether a gutter face crosses any face of the mesh: the promise, for who wants to see it kept.
+pub fn crosses_something(place: (&Mesh, &crate::geometry::bvh::Bvh), face: FaceId) -> Option<FaceId> {
+    let (mesh, bvh) = place;
+    let corners = |f: FaceId| Corners { ids: mesh.face(f).nodes.map(|n| n.0), at: mesh.triangle(f) };
+    let (mine, bounds) = (corners(face), face_box(mesh, face.0));
+    let mut found = None;
+    bvh.overlapping(&bounds, |item| {
+        let other = FaceId(item);
+        if other != face && face_box(mesh, item).overlaps(&bounds) && cross(&mine, &corners(other)) {
+            found = Some(other);
+        }
+        found.is_none()
+    });
+    found
+}

@@ -1,0 +1,78 @@
+//! What there is to show of a cut.
+
+use std::collections::BTreeMap;
+
+use super::state::{Cut, State, Work};
+use crate::engine::Shown;
+use crate::report::{Counter, Counters, Overlay, Row, Table};
+
+pub(super) fn show(state: &State, work: &Work) -> Shown {
+    match work {
+        Work::Cut(cut) => {
+            Shown { counters: counters(cut), tables: vec![links(cut)], overlays: overlays(cut) }
+        }
+        Work::Subdivide { refined, .. } => {
+            let children = refined.children.iter().map(|c| c.len() as u64).sum();
+            let counters = [("children", children), ("faces", state.mesh.face_count() as u64)];
+            let counters = counters.map(|(k, v)| (k.to_owned(), Counter::Count(v)));
+            Shown { counters: counters.into_iter().collect(), ..Shown::default() }
+        }
+    }
+}
+
+fn counters(cut: &Cut) -> Counters {
+    let chain = &cut.formed.chain;
+    let mut configurations: BTreeMap<String, u64> = BTreeMap::new();
+    for i in 0..chain.links.len() {
+        *configurations.entry(chain.configuration(i)).or_default() += 1;
+    }
+    let mut faces: Vec<_> = chain.links.iter().map(|l| l.face).collect();
+    faces.sort_unstable();
+    faces.dedup();
+    let mut counters: Counters = [("configurations".to_owned(), Counter::ByName(configurations))].into();
+    let mut count = |name: &str, n: usize| counters.insert(name.into(), Counter::Count(n as u64));
+    count("links", chain.links.len());
+    count("faces", faces.len());
+    count("snapped", cut.plane.as_ref().map_or(0, |p| p.snapped()));
+    if !cut.carved.gutter.is_empty() {
+        count("gutter_faces", cut.carved.gutter.len());
+        count("moved", cut.carved.moved.len());
+        count("narrowed", cut.carved.narrowed);
+        count("shallowed", cut.carved.shallowed);
+    }
+    counters
+}
+
+fn links(cut: &Cut) -> Table {
+    let chain = &cut.formed.chain;
+    let row = |i: usize| {
+        let [a, b] = [i, i + 1].map(|k| chain.points[k]);
+        let face = chain.links[i].face;
+        let length = a.position.distance(b.position);
+        let cells = [
+            chain.configuration(i),
+            face.to_string(),
+            a.at.to_string(),
+            b.at.to_string(),
+            format!("{length:.6}"),
+        ];
+        Row { ids: vec![face.to_string(), a.at.to_string(), b.at.to_string()], cells: cells.to_vec() }
+    };
+    Table {
+        title: "links".into(),
+        columns: ["configuration", "face", "from", "to", "length"].map(String::from).to_vec(),
+        rows: (0..chain.links.len()).map(row).collect(),
+    }
+}
+
+fn overlays(cut: &Cut) -> Vec<Overlay> {
+    let chain = &cut.formed.chain;
+    let line = chain.points.iter().map(|p| p.position.to_array()).collect();
+    let picks = cut.picked.iter().flatten().map(|p| p.point.position.to_array()).collect();
+    let gutter = cut.carved.gutter.iter().map(|f| f.0).collect();
+    vec![
+        Overlay::Line { name: "line".into(), points: line },
+        Overlay::Points { name: "picks".into(), points: picks },
+        Overlay::Faces { name: "gutter".into(), faces: gutter },
+    ]
+}
