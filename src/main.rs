@@ -1,3 +1,9 @@
 //! The program: parse, dispatch, exit code.
 
-fn main() {}
+use std::process::ExitCode;
+
+use lancet::cli::{Console, run};
+
+fn main() -> ExitCode {
+    run(std::env::args_os(), &mut Console::standard()).into()
+}

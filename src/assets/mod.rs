@@ -12,6 +12,7 @@ pub mod cache;
 mod error;
 mod exact;
 pub mod export;
+mod files;
 #[cfg(feature = "gltf")]
 mod gltf;
 pub mod inspect;
@@ -30,10 +31,10 @@ use serde::{Deserialize, Serialize};
 
 pub use cache::CacheOptions;
 pub use error::{AssetError, Fault, FaultKind, Place};
+pub use files::{is_file, is_folder, list_files, read_file, write_file};
 pub use inspect::{MeshFacts, inspect};
 pub use open::{Loaded, open};
 pub use scene::SceneSettings;
-
 
 /// Something that was changed or passed over while a mesh was read.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]

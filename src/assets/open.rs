@@ -74,7 +74,8 @@ fn open_mesh(path: &Path, options: &CacheOptions) -> Result<Opened, AssetError> 
 
 fn open_builtin(name: &str) -> Result<Opened, AssetError> {
     let path = PathBuf::from(format!("{BUILTIN}{name}"));
-    let made = builtin::builtin(name).map_err(|why| Fault::whole(FaultKind::Unsupported, why.to_string()).in_file(&path))?;
+    let made = builtin::builtin(name)
+        .map_err(|why| Fault::whole(FaultKind::Unsupported, why.to_string()).in_file(&path))?;
     as_it_is(&made.mesh).map_err(|fault| fault.in_file(&path))
 }
 

@@ -14,6 +14,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use crate::mesh::Mesh;
 use crate::report::{Buffer, Check, Counters, Outcome, Overlay, Rejection, Table};
 
 /// What the session itself does with an event.
@@ -123,7 +124,7 @@ pub trait Engine: Sized + 'static {
     fn revert(state: &mut Self::State, patch: &Self::Patch);
     /// Does a patch again that was taken back.
     fn apply(state: &mut Self::State, patch: &Self::Patch);
-    /// What there is to show.
+    /// What there is to show. Asked while the transaction is still open, before `commit` or `rollback`.
     fn show(state: &Self::State, work: &Self::Work) -> Shown;
 
     /// The small part of the state.
@@ -138,6 +139,14 @@ pub trait Engine: Sized + 'static {
     fn check(state: &Self::State) -> Vec<Check>;
     /// Counts of the whole state by name (`faces`, `nodes`, `euler`, …), in a fixed order.
     fn counts(state: &Self::State) -> Vec<(&'static str, i64)>;
+    /// The surface to show and to export, where the engine has one.
+    fn mesh(_state: &Self::State) -> Option<&Mesh> {
+        None
+    }
+    /// Whether a piece of work counts as a cut in the sums of a run.
+    fn is_cut(_work: &Self::Work) -> bool {
+        true
+    }
     /// Bytes that the state holds.
     fn state_bytes(state: &Self::State) -> usize;
     /// Bytes that a patch holds.

@@ -27,7 +27,8 @@ pub fn cross(a: &Corners, b: &Corners) -> bool {
 /// Whether an edge of `a` passes through the inside of `b`.
 fn pierces(a: &Corners, b: &Corners) -> bool {
     let shared = a.ids.map(|id| b.ids.contains(&id));
-    let side = [0, 1, 2].map(|i| if shared[i] { Ordering::Equal } else { orient3d(b.at[0], b.at[1], b.at[2], a.at[i]) });
+    let side = [0, 1, 2]
+        .map(|i| if shared[i] { Ordering::Equal } else { orient3d(b.at[0], b.at[1], b.at[2], a.at[i]) });
     if side.iter().all(|&s| s != Ordering::Less) || side.iter().all(|&s| s != Ordering::Greater) {
         return false;
     }

@@ -1,1 +1,92 @@
-//! replay
+//! The session: recorded events through an engine's stages, with clock, digests, checks, undo, keyframes and seek.
+//!
+//! A [`Session`] knows its engine by type and loops over the rows of its stage table. Front ends and `verify` see it as a
+//! [`Replay`], and know no engine by name.
+//!
+//! **Order of an event.** The engine begins it; each stage that takes part runs (only that is timed), gives its changed buffers to be
+//! digested, then is checked; a rejection rolls everything back, else the work is committed as a patch. A broken invariant is
+//! a finding: the first one is latched, and the replay goes on.
+//!
+//! **Seek.** The state before any event is reached by walking patches, or by running again from the nearest keyframe; both give the
+//! bits that linear replay gives. What is kept for it lies under a byte budget; with none at all, seeking runs again
+//! from the first state, which undoing everything always gives back.
+
+mod digest;
+mod open;
+mod session;
+mod stages;
+#[cfg(test)]
+mod tests;
+mod timeline;
+#[cfg(test)]
+pub(crate) mod toy;
+
+pub use open::{OpenError, open, open_file};
+pub use session::Session;
+pub use stages::{Plant, Planting};
+
+use crate::mesh::Mesh;
+use crate::report::{EventDelta, EventReport, Finding, RunReport, StateReport};
+
+/// How a recording is replayed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// The whole state's invariants are looked at every this many applied edits; 0 only at checkpoints and at the end.
+    pub check_every: usize,
+    /// Digests and checks the whole state after every event.
+    pub paranoid: bool,
+    /// Bytes that patches and keyframes may take, beside what undo and redo need; 0 runs again for every seek.
+    pub budget_bytes: usize,
+    /// Keeps the buffers that the stages changed, for [`Replay::take_deltas`].
+    pub keep_deltas: bool,
+    /// A defect to plant, to see that it is found.
+    pub plant: Option<Plant>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { check_every: 0, paranoid: false, budget_bytes: 256 << 20, keep_deltas: false, plant: None }
+    }
+}
+
+/// A recording being replayed, whatever its engine.
+pub trait Replay: Send {
+    /// The engine's name.
+    fn engine(&self) -> &'static str;
+    /// The engine's stages: short name and title, in order.
+    fn stages(&self) -> Vec<(&'static str, &'static str)>;
+    /// How many events there are.
+    fn len(&self) -> usize;
+    /// Whether there is no event.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+    /// The state is the one before this event; `len` at the end.
+    fn position(&self) -> usize;
+    /// Runs the next event. None at the end.
+    fn step(&mut self) -> Option<&EventReport>;
+    /// Goes back to before the last event. False at the beginning.
+    fn back(&mut self) -> bool;
+    /// Goes to the state before an event, or to the end.
+    fn seek(&mut self, event: usize);
+    /// Runs an event up to and including a stage, and takes it back. An error says why there is no such place.
+    fn until(&mut self, event: usize, stage: &str) -> Result<EventReport, String>;
+    /// The report of an event that was run.
+    fn event(&self, index: usize) -> Option<&EventReport>;
+    /// The first broken invariant.
+    fn finding(&self) -> Option<&Finding>;
+    /// The report of the run as far as it has gone, under the recording's name.
+    fn run_report(&self, recording: &str) -> RunReport;
+    /// Digests, counts and checks the whole state as it is now.
+    fn state(&self) -> StateReport;
+    /// The surface as it is now.
+    fn mesh(&self) -> Option<&Mesh>;
+    /// What the stages changed since this was last asked, event by event. Only events that were run, not walked, have any.
+    fn take_deltas(&mut self) -> Vec<EventDelta>;
+    /// What became of the defect to plant.
+    fn planting(&self) -> &Planting;
+    /// Runs all events that are left.
+    fn finish(&mut self) {
+        while self.step().is_some() {}
+    }
+}

@@ -40,6 +40,24 @@ pub struct Buffer {
     pub data: Vec<u8>,
 }
 
+/// What one stage changed at one event.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct StageDelta {
+    /// The stage, such as `MC`.
+    pub stage: String,
+    /// What it changed, in the stage's order.
+    pub buffers: Vec<Buffer>,
+}
+
+/// What the stages changed at one event.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct EventDelta {
+    /// The event's place in the recording.
+    pub event: usize,
+    /// The stages that ran through, in order.
+    pub stages: Vec<StageDelta>,
+}
+
 /// The first place at which two buffers differ.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Difference {

@@ -1,13 +1,17 @@
 //! What a run has to say, as plain data: any front end shows any engine through it, and knows none by name.
 
 mod delta;
+mod run;
+mod trace;
 
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use delta::{Buffer, Difference, Scalar};
+pub use delta::{Buffer, Difference, EventDelta, Scalar, StageDelta};
+pub use run::{Finding, RunReport, StateReport, Totals};
+pub use trace::trace;
 
 /// Version of the JSON report.
 pub const SCHEMA: u32 = 1;
@@ -167,6 +171,20 @@ pub struct StageReport {
     pub checks: Vec<Check>,
 }
 
+impl StageReport {
+    /// The row of a stage that did not run, for a reason.
+    pub fn skipped(id: &str, reason: &str) -> Self {
+        Self {
+            id: id.into(),
+            us: 0.0,
+            skipped: Some(reason.into()),
+            digest: None,
+            buffers: BTreeMap::new(),
+            checks: Vec::new(),
+        }
+    }
+}
+
 /// What became of one event.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct EventReport {
@@ -187,12 +205,24 @@ pub struct EventReport {
     pub counters: Counters,
     /// The stages, in the order of the engine's table.
     pub stages: Vec<StageReport>,
+    /// Whether it took a cut through the stages.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub cut: bool,
+    /// A checkpoint's name.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub checkpoint: Option<String>,
     /// A checkpoint's frame, or why there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame: Option<String>,
     /// Digest of the whole state, at a checkpoint, at the end and with `--paranoid`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub state: Option<String>,
+    /// The same for each buffer of the state.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub state_buffers: BTreeMap<String, String>,
+    /// Counts of the whole state, such as `faces` and `euler`, where it was digested.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub counts: BTreeMap<String, i64>,
     /// Invariants of the whole state, where they were looked at.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub checks: Vec<Check>,
@@ -205,6 +235,44 @@ pub struct EventReport {
 }
 
 impl EventReport {
+    /// A report of which nothing is known but what the event is.
+    pub fn new(index: usize, kind: &str) -> Self {
+        Self {
+            index,
+            kind: kind.into(),
+            mode: String::new(),
+            outcome: Outcome::None,
+            reason: None,
+            detail: None,
+            counters: Counters::new(),
+            stages: Vec::new(),
+            cut: false,
+            checkpoint: None,
+            frame: None,
+            state: None,
+            state_buffers: BTreeMap::new(),
+            counts: BTreeMap::new(),
+            checks: Vec::new(),
+            tables: Vec::new(),
+            overlays: Vec::new(),
+        }
+    }
+
+    /// The same with every time at zero: two runs of one recording are compared so.
+    #[must_use]
+    pub fn without_times(&self) -> Self {
+        let mut report = self.clone();
+        report.stages.iter_mut().for_each(|s| s.us = 0.0);
+        report
+    }
+
+    /// Keeps why it was rejected.
+    pub fn reject(&mut self, rejection: Rejection) {
+        self.outcome = Outcome::Rejected;
+        self.reason = Some(rejection.reason);
+        self.detail = Some(rejection.detail);
+    }
+
     /// The broken invariants of the event, with the stage at which they broke.
     pub fn findings(&self) -> impl Iterator<Item = (&str, &Check)> {
         let stages = self.stages.iter().flat_map(|s| s.checks.iter().map(move |c| (s.id.as_str(), c)));

@@ -1,0 +1,95 @@
+//! Reading, writing and finding files: the only place of the house that touches the file system.
+//!
+//! A file is written whole or not at all: under another name beside its place first, then renamed.
+
+use std::ffi::OsString;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::error::AssetError;
+
+/// The bytes of a file.
+pub fn read_file(path: &Path) -> Result<Vec<u8>, AssetError> {
+    fs::read(path).map_err(|e| AssetError::io(path, &e))
+}
+
+/// Writes a file, and the folders that it lies in. What stood there before stays until the new bytes are all written.
+pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), AssetError> {
+    let mut name = path.file_name().map_or_else(OsString::new, OsString::from);
+    name.push(format!(".{}.part", std::process::id()));
+    let part = path.with_file_name(name);
+    let written =
+        make_folder(path).and_then(|()| fs::write(&part, bytes)).and_then(|()| fs::rename(&part, path));
+    written.map_err(|e| {
+        // Best effort: the error to report is the first one.
+        let _ = fs::remove_file(&part);
+        AssetError::io(path, &e)
+    })
+}
+
+fn make_folder(path: &Path) -> io::Result<()> {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).map_or(Ok(()), fs::create_dir_all)
+}
+
+/// Whether a path is a file.
+pub fn is_file(path: &Path) -> bool {
+    path.is_file()
+}
+
+/// Whether a path is a folder.
+pub fn is_folder(path: &Path) -> bool {
+    path.is_dir()
+}
+
+/// All files in a folder and the folders in it, sorted by path; none where there is no such folder. Links to folders are not followed.
+pub fn list_files(folder: &Path) -> Result<Vec<PathBuf>, AssetError> {
+    let mut files = Vec::new();
+    if folder.is_dir() {
+        collect(folder, &mut files)?;
+    }
+    files.sort();
+    Ok(files)
+}
+
+fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), AssetError> {
+    let failed = |e: io::Error| AssetError::io(folder, &e);
+    for entry in fs::read_dir(folder).map_err(failed)? {
+        let entry = entry.map_err(failed)?;
+        if entry.file_type().map_err(failed)?.is_dir() {
+            collect(&entry.path(), files)?;
+        } else {
+            files.push(entry.path());
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_written_with_their_folders_and_listed_in_order() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        for name in ["b.txt", "a/d/z.txt", "a/c.txt"] {
+            write_file(&at(name), name.as_bytes()).expect("written");
+        }
+        write_file(&at("b.txt"), b"again").expect("written over");
+        assert_eq!(read_file(&at("b.txt")).expect("read"), b"again");
+        let listed = list_files(folder.path()).expect("listed");
+        assert_eq!(listed, [at("a/c.txt"), at("a/d/z.txt"), at("b.txt")], "and no part is left over");
+        assert_eq!(list_files(&at("nowhere")).expect("none"), [PathBuf::new(); 0]);
+    }
+
+    #[test]
+    fn errors_name_the_file() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let missing = folder.path().join("missing");
+        let error = read_file(&missing).expect_err("it is not there");
+        assert!(error.to_string().contains("missing"));
+        write_file(&missing, b"x").expect("written");
+        assert!(write_file(&missing.join("under-a-file"), b"x").is_err());
+    }
+}

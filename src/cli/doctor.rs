@@ -1,0 +1,31 @@
+//! `lancet doctor`: the program and the machine, for a report of something strange.
+
+use std::thread::available_parallelism;
+
+use super::table::TextTable;
+use super::{Console, Done, Status};
+use crate::assets::{self, CacheOptions};
+use crate::recording::{ENGINES, VERSION};
+
+pub(super) fn run(console: &mut Console<'_>) -> Done {
+    let build = if cfg!(debug_assertions) { "debug" } else { "release" };
+    let gltf = if cfg!(feature = "gltf") { "gltf" } else { "none" };
+    let threads = available_parallelism().map_or_else(|e| e.to_string(), |n| n.to_string());
+    let mut table = TextTable::pairs();
+    table.pair("lancet", format!("{} ({build})", env!("CARGO_PKG_VERSION")));
+    table.pair("features", gltf);
+    table.pair("engines", ENGINES.join(", "));
+    table.pair("recordings", format!("format versions 1 to {VERSION}"));
+    table.pair("machine", format!("{} {}, {threads} threads", std::env::consts::OS, std::env::consts::ARCH));
+    table.pair("cache", cache(&CacheOptions::from_environment()));
+    table.write(&mut console.out)?;
+    Ok(Status::Verified)
+}
+
+fn cache(options: &CacheOptions) -> String {
+    let Some(folder) = &options.folder else { return "off".into() };
+    match assets::list_files(folder) {
+        Ok(files) => format!("{}, {} files", folder.display(), files.len()),
+        Err(error) => error.to_string(),
+    }
+}

@@ -1,0 +1,114 @@
+//! The engines that a recording can be for. This file is the only place of the room that lists them.
+
+use crate::engine::Event;
+use crate::engine::wound::WoundEvent;
+
+use super::{Recording, SceneRef};
+
+/// The engines' names, as they stand in files and scripts; the first is a script's default.
+pub const ENGINES: &[&str] = &[WoundEvent::ENGINE];
+
+/// A recording for one of the engines.
+#[derive(Clone, Debug, PartialEq)]
+pub enum AnyRecording {
+    /// Cutting wounds on a skin surface.
+    Wound(Recording<WoundEvent>),
+}
+
+/// The events of an engine that recordings are made for.
+pub trait Recorded: Event {
+    /// The engine's name.
+    const ENGINE: &'static str;
+    /// The recording as one of any engine.
+    fn wrap(recording: Recording<Self>) -> AnyRecording;
+}
+
+impl Recorded for WoundEvent {
+    const ENGINE: &'static str = "wound";
+
+    fn wrap(recording: Recording<Self>) -> AnyRecording {
+        AnyRecording::Wound(recording)
+    }
+}
+
+/// Something to do with a recording, whatever its engine.
+pub trait Visit {
+    /// What comes of it.
+    type Output;
+    /// Does it.
+    fn visit<E: Recorded>(self, recording: &Recording<E>) -> Self::Output;
+}
+
+/// Something to do for an engine that is known by its name.
+pub(super) trait ForEngine {
+    /// What comes of it.
+    type Output;
+    /// Does it.
+    fn run<E: Recorded>(self) -> Self::Output;
+}
+
+/// Does something for the engine of a name; `None` when there is no such engine.
+pub(super) fn for_engine<F: ForEngine>(name: &str, job: F) -> Option<F::Output> {
+    match name {
+        WoundEvent::ENGINE => Some(job.run::<WoundEvent>()),
+        _ => None,
+    }
+}
+
+/// The same expression for each engine's recording.
+macro_rules! each {
+    ($any:expr, $recording:ident => $do:expr) => {
+        match $any {
+            AnyRecording::Wound($recording) => $do,
+        }
+    };
+}
+
+impl AnyRecording {
+    /// Does something that holds for every engine.
+    pub fn visit<V: Visit>(&self, job: V) -> V::Output {
+        each!(self, recording => job.visit(recording))
+    }
+
+    /// Name of the engine that it is for.
+    pub fn engine(&self) -> &'static str {
+        struct Name;
+        impl Visit for Name {
+            type Output = &'static str;
+            fn visit<E: Recorded>(self, _: &Recording<E>) -> &'static str {
+                E::ENGINE
+            }
+        }
+        self.visit(Name)
+    }
+
+    /// What it was recorded on.
+    pub fn scene(&self) -> &SceneRef {
+        each!(self, recording => &recording.scene)
+    }
+
+    /// blake3 of the scene's description and of its mesh.
+    pub fn hashes(&self) -> [[u8; 32]; 2] {
+        each!(self, recording => [recording.scene_hash, recording.mesh_hash])
+    }
+
+    /// Width and height of the view, pixels.
+    pub fn viewport(&self) -> [u32; 2] {
+        each!(self, recording => recording.viewport)
+    }
+
+    /// How many events there are.
+    pub fn event_count(&self) -> usize {
+        each!(self, recording => recording.events.len())
+    }
+
+    /// Says where the scene is.
+    pub fn set_scene(&mut self, scene: SceneRef) {
+        each!(self, recording => recording.scene = scene);
+    }
+
+    /// Says what the scene and its mesh hash to.
+    pub fn set_hashes(&mut self, [scene, mesh]: [[u8; 32]; 2]) {
+        each!(self, recording => (recording.scene_hash, recording.mesh_hash) = (scene, mesh));
+    }
+}

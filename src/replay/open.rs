@@ -1,0 +1,171 @@
+//! From a recording to a replay: the only place that says which engine a recording's events are for.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use super::{Options, Replay, Session};
+use crate::assets::{self, AssetError, CacheOptions, Loaded, SceneSettings};
+use crate::engine::Engine;
+use crate::engine::wound::{self, Wound};
+use crate::recording::{self, AnyRecording, ReadError, Recording};
+
+/// Why a recording cannot be replayed.
+#[derive(Debug)]
+pub enum OpenError {
+    /// A file cannot be read, or is not what it should be.
+    Asset(AssetError),
+    /// The recording is damaged.
+    Recording {
+        /** Its file. */
+        path: PathBuf,
+        /** What is wrong with it, and where. */
+        error: Box<ReadError>,
+    },
+    /// The scene or its mesh is not what was recorded on.
+    Mismatch {
+        /** `scene` or `mesh`. */
+        what: &'static str,
+        /** What the recording holds. */
+        expected: String,
+        /** What was found. */
+        found: String,
+    },
+}
+
+impl fmt::Display for OpenError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Asset(error) => error.fmt(f),
+            Self::Recording { path, error } => write!(f, "{}: {error}", path.display()),
+            Self::Mismatch { what, expected, found } => {
+                write!(
+                    f,
+                    "the {what} is not the one that was recorded on: its hash is {found}, not {expected}"
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for OpenError {}
+
+/// Opens a recording's file, with the scene that it names.
+pub fn open_file(path: &Path, options: Options) -> Result<Box<dyn Replay>, OpenError> {
+    let bytes = assets::read_file(path).map_err(OpenError::Asset)?;
+    let recording =
+        recording::read(&bytes).map_err(|error| OpenError::Recording { path: path.into(), error })?;
+    let base = path.parent().unwrap_or(Path::new(""));
+    let scene = assets::open(recording.scene(), base, &CacheOptions::from_environment());
+    open(&recording, scene.map_err(OpenError::Asset)?, options)
+}
+
+/// A recording, on the scene that it was recorded on.
+pub fn open(recording: &AnyRecording, scene: Loaded, options: Options) -> Result<Box<dyn Replay>, OpenError> {
+    require_same(recording, &scene)?;
+    match recording {
+        AnyRecording::Wound(recording) => {
+            let Loaded { mesh, settings, .. } = scene;
+            let state = wound::State::new(mesh, wound_scene(&settings, recording.viewport));
+            Ok(Box::new(session::<Wound>(state, recording, options)))
+        }
+    }
+}
+
+fn session<E: Engine>(state: E::State, recording: &Recording<E::Event>, options: Options) -> Session<E> {
+    let events = recording.events.iter().map(|keyed| (keyed.key, keyed.event.clone())).collect();
+    Session::new(state, events, recording.seed, options)
+}
+
+fn wound_scene(settings: &SceneSettings, viewport: [u32; 2]) -> wound::Scene {
+    let SceneSettings { unit_cm, snap_px, fov_y, target, azimuth, zenith, distance } = *settings;
+    wound::Scene { viewport, unit_cm, snap_px, fov_y, target, azimuth, zenith, distance }
+}
+
+fn require_same(recording: &AnyRecording, scene: &Loaded) -> Result<(), OpenError> {
+    let found = [scene.scene_hash, scene.mesh_hash];
+    for ((what, expected), found) in ["scene", "mesh"].into_iter().zip(recording.hashes()).zip(found) {
+        if expected != found {
+            let text = |hash: [u8; 32]| blake3::Hash::from_bytes(hash).to_hex()[..16].to_string();
+            return Err(OpenError::Mismatch { what, expected: text(expected), found: text(found) });
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recording::{Script, to_bytes};
+    use crate::report::Outcome;
+
+    /// A square of two triangles, seen from the front, cut from pixel to pixel.
+    const SCRIPT: &str = r#"{ "version": 1, "viewport": [100, 100], "seed": 3,
+        "scene": { "inline": { "nodes": [[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], "faces": [[0, 1, 2], [0, 2, 3]] } },
+        "events": [ { "mode": "merge" }, { "click": [45, 40] }, { "click": [60, 55] }, { "click": [0.5, 0.5] },
+                    { "checkpoint": "cut" }, { "undo": {} }, { "redo": {} } ] }"#;
+
+    fn packed() -> AnyRecording {
+        let mut recording = Script::parse(SCRIPT.as_bytes()).expect("a script").unhashed().clone();
+        let scene = load(&recording);
+        recording.set_hashes([scene.scene_hash, scene.mesh_hash]);
+        recording
+    }
+
+    fn load(recording: &AnyRecording) -> Loaded {
+        assets::open(recording.scene(), Path::new(""), &CacheOptions::off()).expect("a scene")
+    }
+
+    fn outcomes(replay: &mut dyn Replay) -> Vec<Outcome> {
+        replay.finish();
+        replay.run_report("").events.iter().map(|e| e.outcome).collect()
+    }
+
+    #[test]
+    fn a_recording_finds_its_engine_and_its_scene() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("square.lancet");
+        let bytes = to_bytes(&packed()).expect("it has a form");
+        assets::write_file(&file, &bytes).expect("written");
+        let mut replay = open_file(&file, Options::default()).expect("it opens");
+        use Outcome::{Applied, None, Pending, Rejected};
+        let expected = [None, Pending, Applied, Rejected, None, Applied, Applied];
+        assert_eq!(outcomes(replay.as_mut()), expected);
+        assert_eq!((replay.engine(), replay.finding()), ("wound", Option::None));
+        let run = replay.run_report("square");
+        assert_eq!((run.scene["faces"], run.totals.cuts), (2, 1));
+        assert!(run.end.is_some_and(|end| end.counts["faces"] > 2));
+        assets::write_file(&file, &bytes[..bytes.len() - 1]).expect("written");
+        assert!(matches!(open_file(&file, Options::default()), Err(OpenError::Recording { .. })));
+        let missing = open_file(&folder.path().join("missing"), Options::default());
+        assert!(matches!(missing, Err(OpenError::Asset(_))));
+    }
+
+    #[test]
+    fn seeking_the_wound_engine_equals_linear_replay() {
+        let recording = packed();
+        let at = |options: Options| open(&recording, load(&recording), options).expect("it opens");
+        let mut linear = at(Options::default());
+        let mut states = vec![linear.state()];
+        while linear.step().is_some() {
+            states.push(linear.state());
+        }
+        for budget_bytes in [0, 3000, 1 << 20] {
+            let mut replay = at(Options { budget_bytes, ..Options::default() });
+            for target in [7, 2, 3, 0, 6, 5, 7, 1] {
+                replay.seek(target);
+                assert_eq!(replay.state(), states[target], "event {target}, {budget_bytes} bytes");
+            }
+        }
+    }
+
+    #[test]
+    fn another_scene_is_refused() {
+        let mut recording = packed();
+        let [scene, mut mesh] = recording.hashes();
+        mesh[0] ^= 1;
+        recording.set_hashes([scene, mesh]);
+        let scene = load(&recording);
+        let error = open(&recording, scene, Options::default()).err().expect("it is another mesh");
+        assert!(error.to_string().starts_with("the mesh is not the one"), "{error}");
+    }
+}

@@ -1,0 +1,376 @@
+//! One engine's recording on its way: where it stands, what it reported, and how it goes forth and back.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::digest;
+use super::stages::{Pipeline, Planting};
+use super::timeline::{Change, Keyframe, Stacks, Step, Timeline};
+use super::{Options, Replay};
+use crate::engine::{Control, Engine, Event, Start};
+use crate::mesh::Mesh;
+use crate::report::{
+    Check, EventDelta, EventReport, Finding, Outcome, Rejection, RunReport, StageDelta, StateReport,
+};
+
+/// A recording being replayed by an engine.
+pub struct Session<E: Engine> {
+    /// Key and event.
+    events: Arc<[(u32, E::Event)]>,
+    seed: u64,
+    options: Options,
+    state: E::State,
+    stacks: Stacks<E>,
+    /// The control state before the first event.
+    first: E::Control,
+    /// Counts of the state before the first event.
+    scene: BTreeMap<String, i64>,
+    position: usize,
+    /// By event, as far as the run has ever gone.
+    reports: Vec<EventReport>,
+    timeline: Timeline<E>,
+    deltas: Vec<EventDelta>,
+    finding: Option<Finding>,
+    end: Option<StateReport>,
+    planting: Planting,
+}
+
+impl<E: Engine> Session<E> {
+    /// Stands before the first of some events, each with its key.
+    pub fn new(state: E::State, events: Vec<(u32, E::Event)>, seed: u64, options: Options) -> Self {
+        let mut session = Self {
+            events: events.into(),
+            seed,
+            first: E::control(&state),
+            scene: counts::<E>(&state),
+            state,
+            stacks: Stacks::default(),
+            position: 0,
+            reports: Vec::new(),
+            timeline: Timeline::new(options.budget_bytes),
+            deltas: Vec::new(),
+            finding: None,
+            end: None,
+            planting: Planting::Open,
+            options,
+        };
+        session.look_at_end();
+        session
+    }
+
+    /// The state as it is now.
+    pub fn engine_state(&self) -> &E::State {
+        &self.state
+    }
+
+    /// Bytes that are kept for seeking, beside what undo and redo need.
+    pub fn kept_bytes(&self) -> usize {
+        self.timeline.bytes()
+    }
+
+    /// Runs or walks the event at the position. False at the end.
+    fn forward(&mut self) -> bool {
+        if self.position == self.events.len() {
+            return false;
+        }
+        match self.timeline.step(self.position) {
+            Some(step) => step.forward(&mut self.state, &mut self.stacks),
+            None => self.run(),
+        }
+        self.position += 1;
+        self.look_at_end();
+        true
+    }
+
+    /// Takes the last event back, where its step is kept.
+    fn walk_back(&mut self) -> bool {
+        let Some(step) = self.position.checked_sub(1).and_then(|last| self.timeline.step(last)) else {
+            return false;
+        };
+        step.backward(&mut self.state, &mut self.stacks);
+        self.position -= 1;
+        true
+    }
+
+    /// Goes to the nearest keyframe at or before an event, or to the beginning.
+    fn restore(&mut self, event: usize) {
+        if let Some((at, keyframe)) = self.timeline.keyframe(event) {
+            self.state.clone_from(&keyframe.state);
+            self.stacks = keyframe.stacks.clone();
+            self.position = at;
+        } else {
+            self.stacks.rewind(&mut self.state);
+            E::set_control(&mut self.state, self.first.clone());
+            self.position = 0;
+        }
+    }
+
+    /// Runs the event at the position, and keeps its report and its step.
+    fn run(&mut self) {
+        let index = self.position;
+        if self.timeline.wants_keyframe(index, E::state_bytes(&self.state)) {
+            let keyframe = Keyframe { state: self.state.clone(), stacks: self.stacks.clone() };
+            self.timeline.keep_keyframe(index, keyframe);
+        }
+        let events = Arc::clone(&self.events);
+        let (key, event) = &events[index];
+        let before = E::control(&self.state);
+        let mut report = EventReport::new(index, event.kind());
+        let change = match event.control() {
+            Control::Step => self.run_step(*key, event, &mut report, None),
+            Control::Undo => self.undo(event, &mut report),
+            Control::Redo => self.redo(event, &mut report),
+            Control::Checkpoint(name) => self.checkpoint(event, name, &mut report),
+        };
+        report.mode = E::mode(&self.state).into();
+        self.stacks.edits += usize::from(change.is_edit());
+        self.look_after(&mut report, change.is_edit());
+        self.timeline.keep_step(index, Step { before, after: E::control(&self.state), change });
+        self.keep_report(report);
+    }
+
+    /// The engine's own work: through the stages, then kept or taken back. With a last stage always taken back.
+    fn run_step(
+        &mut self,
+        key: u32,
+        event: &E::Event,
+        report: &mut EventReport,
+        last: Option<&str>,
+    ) -> Change<E> {
+        let seed = digest::event_seed(self.seed, key, "cut");
+        let work = match E::start(&mut self.state, event, seed) {
+            Start::Done(outcome) => {
+                report.outcome = outcome;
+                return Change::None;
+            }
+            Start::Rejected(rejection) => {
+                report.reject(rejection);
+                return Change::None;
+            }
+            Start::Run(work) => work,
+        };
+        let mut pipeline = Pipeline::<E>::new(&mut self.state, work);
+        pipeline.plant = self.options.plant.as_ref().filter(|p| p.event == report.index);
+        pipeline.keep_deltas = self.options.keep_deltas && last.is_none();
+        pipeline.last = last;
+        let result = pipeline.run();
+        pipeline.describe(report);
+        let Pipeline { mut work, deltas, planting, .. } = pipeline;
+        self.keep_deltas(report.index, deltas);
+        if planting != Planting::Open {
+            self.planting = planting;
+        }
+        match result {
+            Ok(()) if last.is_none() => self.commit(&mut work, report),
+            Ok(()) => self.roll_back(&mut work),
+            Err(rejection) => {
+                report.reject(rejection);
+                self.roll_back(&mut work)
+            }
+        }
+    }
+
+    fn commit(&mut self, work: &mut E::Work, report: &mut EventReport) -> Change<E> {
+        report.outcome = Outcome::Applied;
+        let patch = Arc::new(E::commit(&mut self.state, work));
+        let cleared = self.stacks.commit(Arc::clone(&patch));
+        Change::Commit { patch, cleared }
+    }
+
+    fn roll_back(&mut self, work: &mut E::Work) -> Change<E> {
+        E::rollback(&mut self.state, work);
+        Change::None
+    }
+
+    fn undo(&mut self, event: &E::Event, report: &mut EventReport) -> Change<E> {
+        E::interrupt(&mut self.state, event);
+        let done = self.stacks.undo(&mut self.state).then_some(Change::Undo);
+        settle(done, report, Rejection::new("nothing-to-undo", "no applied edit is left to take back"))
+    }
+
+    fn redo(&mut self, event: &E::Event, report: &mut EventReport) -> Change<E> {
+        E::interrupt(&mut self.state, event);
+        let done = self.stacks.redo(&mut self.state).then_some(Change::Redo);
+        settle(done, report, Rejection::new("nothing-to-redo", "no undone edit is left to do again"))
+    }
+
+    fn checkpoint(&mut self, event: &E::Event, name: &str, report: &mut EventReport) -> Change<E> {
+        if E::interrupt(&mut self.state, event) {
+            report.outcome = Outcome::Cancelled;
+        }
+        report.checkpoint = Some(name.into());
+        report.frame = Some("skipped: no renderer".into());
+        Change::None
+    }
+
+    /// Looks at the whole state where the options or a checkpoint ask for it.
+    fn look_after(&mut self, report: &mut EventReport, edited: bool) {
+        let whole = self.options.paranoid || report.checkpoint.is_some();
+        if whole {
+            let state = self.state();
+            (report.state, report.state_buffers) = (Some(state.digest), state.buffers);
+            (report.counts, report.checks) = (state.counts, state.checks);
+        } else if edited && self.is_check_due() {
+            report.checks = E::check(&self.state);
+        }
+    }
+
+    fn is_check_due(&self) -> bool {
+        let every = self.options.check_every;
+        every > 0 && self.stacks.edits.is_multiple_of(every)
+    }
+
+    /// Looks at the whole state when the last event is done for the first time.
+    fn look_at_end(&mut self) {
+        if self.position == self.events.len() && self.end.is_none() {
+            let end = self.state();
+            let broken = end.checks.iter().find(|c| !c.ok).cloned();
+            self.latch(broken.map(|check| Finding { event: None, stage: "state".into(), check }));
+            self.end = Some(end);
+        }
+    }
+
+    fn keep_deltas(&mut self, event: usize, stages: Vec<StageDelta>) {
+        if !stages.is_empty() {
+            self.deltas.push(EventDelta { event, stages });
+        }
+    }
+
+    /// Keeps a report. An event that is run again has to report the same.
+    fn keep_report(&mut self, report: EventReport) {
+        let event = Some(report.index);
+        let broken = report.findings().next().map(|(stage, check)| (stage.to_string(), check.clone()));
+        self.latch(broken.map(|(stage, check)| Finding { event, stage, check }));
+        match self.reports.get(report.index) {
+            None => self.reports.push(report),
+            Some(old) if old.without_times() == report.without_times() => {}
+            Some(_) => {
+                let check = Check::fail("repeats", "run again, the event reports something else");
+                self.latch(Some(Finding { event, stage: "replay".into(), check }));
+            }
+        }
+    }
+
+    fn latch(&mut self, finding: Option<Finding>) {
+        if self.finding.is_none() {
+            self.finding = finding;
+        }
+    }
+
+    /// Why an event cannot be stopped after a stage.
+    fn require_stage(&self, event: usize, stage: &str) -> Result<(), String> {
+        if event >= self.events.len() {
+            return Err(format!("there is no event {event}: the recording has {}", self.events.len()));
+        }
+        let ids: Vec<&str> = E::STAGES.iter().map(|s| s.id).collect();
+        if ids.contains(&stage) {
+            Ok(())
+        } else {
+            Err(format!("there is no stage `{stage}`: {} has {}", E::NAME, ids.join(", ")))
+        }
+    }
+}
+
+fn settle<E: Engine>(done: Option<Change<E>>, report: &mut EventReport, otherwise: Rejection) -> Change<E> {
+    match done {
+        Some(change) => {
+            report.outcome = Outcome::Applied;
+            change
+        }
+        None => {
+            report.reject(otherwise);
+            Change::None
+        }
+    }
+}
+
+fn counts<E: Engine>(state: &E::State) -> BTreeMap<String, i64> {
+    E::counts(state).into_iter().map(|(name, count)| (name.into(), count)).collect()
+}
+
+impl<E: Engine> Replay for Session<E> {
+    fn engine(&self) -> &'static str {
+        E::NAME
+    }
+
+    fn stages(&self) -> Vec<(&'static str, &'static str)> {
+        E::STAGES.iter().map(|s| (s.id, s.title)).collect()
+    }
+
+    fn len(&self) -> usize {
+        self.events.len()
+    }
+
+    fn position(&self) -> usize {
+        self.position
+    }
+
+    fn step(&mut self) -> Option<&EventReport> {
+        let index = self.position;
+        if self.forward() { self.reports.get(index) } else { None }
+    }
+
+    fn back(&mut self) -> bool {
+        match self.position.checked_sub(1) {
+            Some(last) => self.seek(last),
+            None => return false,
+        }
+        true
+    }
+
+    fn seek(&mut self, event: usize) {
+        let event = event.min(self.events.len());
+        while self.position > event && self.walk_back() {}
+        if self.position > event {
+            self.restore(event);
+        }
+        while self.position < event && self.forward() {}
+    }
+
+    fn until(&mut self, event: usize, stage: &str) -> Result<EventReport, String> {
+        self.require_stage(event, stage)?;
+        self.seek(event);
+        let events = Arc::clone(&self.events);
+        let (key, input) = &events[event];
+        let mut report = EventReport::new(event, input.kind());
+        report.mode = E::mode(&self.state).into();
+        if input.control() == Control::Step {
+            let before = E::control(&self.state);
+            self.run_step(*key, input, &mut report, Some(stage));
+            E::set_control(&mut self.state, before);
+        }
+        Ok(report)
+    }
+
+    fn event(&self, index: usize) -> Option<&EventReport> {
+        self.reports.get(index)
+    }
+
+    fn finding(&self) -> Option<&Finding> {
+        self.finding.as_ref()
+    }
+
+    fn run_report(&self, recording: &str) -> RunReport {
+        let (events, end) = (self.reports.clone(), self.end.clone());
+        let mut run = RunReport::new(recording, E::NAME, self.scene.clone(), events, end);
+        run.totals.digest = digest::of_run(&run.events, run.end.as_ref());
+        run
+    }
+
+    fn state(&self) -> StateReport {
+        let (digest, buffers) = digest::of_buffers(&E::buffers(&self.state));
+        StateReport { digest, buffers, counts: counts::<E>(&self.state), checks: E::check(&self.state) }
+    }
+
+    fn mesh(&self) -> Option<&Mesh> {
+        E::mesh(&self.state)
+    }
+
+    fn take_deltas(&mut self) -> Vec<EventDelta> {
+        std::mem::take(&mut self.deltas)
+    }
+
+    fn planting(&self) -> &Planting {
+        &self.planting
+    }
+}

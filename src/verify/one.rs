@@ -1,0 +1,98 @@
+//! One recording: replayed, and compared with its goldens.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::time::Instant;
+
+use super::compare::{Comparison, compare};
+use super::golden::{Found, Stored};
+use super::report::{RecordingReport, Verdict};
+use super::{VerifyOptions, home};
+use crate::replay::{self, Options, Planting, Replay};
+
+/// Opens a recording for replay. An error says what is wrong with which file.
+pub(super) type Open<'a> = dyn Fn(&Path, Options) -> Result<Box<dyn Replay>, String> + Sync + 'a;
+
+/// Opens a recording's file.
+pub(super) fn open_file(path: &Path, options: Options) -> Result<Box<dyn Replay>, String> {
+    replay::open_file(path, options).map_err(|error| error.to_string())
+}
+
+/// Why there is no run to look at.
+pub(super) enum Failure {
+    /// The recording cannot be opened.
+    BadInput(String),
+    /// The program broke one of its own assertions.
+    Panic(String),
+}
+
+/// Replays a recording to its end.
+pub(super) fn run(path: &Path, options: &Options, open: &Open<'_>) -> Result<Found, Failure> {
+    let planted = options.plant.is_some();
+    let options = Options { keep_deltas: true, budget_bytes: 0, ..options.clone() };
+    let replayed = catch_unwind(AssertUnwindSafe(|| {
+        let mut replay = open(path, options)?;
+        replay.finish();
+        match replay.planting() {
+            Planting::Failed(why) => return Err(format!("nothing to plant: {why}")),
+            Planting::Open if planted => return Err("nothing to plant: the place was not reached".into()),
+            _ => {}
+        }
+        Ok(Found { run: replay.run_report(&home::name(path)), deltas: replay.take_deltas() })
+    }));
+    match replayed {
+        Ok(found) => found.map_err(Failure::BadInput),
+        Err(panic) => Err(Failure::Panic(panic_text(panic.as_ref()))),
+    }
+}
+
+fn panic_text(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().copied();
+    let text = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
+    format!("panicked: {}", text.unwrap_or("without a message"))
+}
+
+/// Replays a recording and compares it with its goldens.
+pub(super) fn verify_one(path: &Path, options: &VerifyOptions, open: &Open<'_>) -> RecordingReport {
+    let clock = Instant::now();
+    let mut report = RecordingReport::new(home::name(path));
+    match run(path, &options.replay, open) {
+        Ok(found) => {
+            let stored = Stored::read(&home::goldens(path), &found);
+            describe(
+                &mut report,
+                &found,
+                compare(&found, &stored),
+                [stored.problems, stored.orphans].concat(),
+            );
+        }
+        Err(Failure::BadInput(why)) => report.error = Some(why),
+        Err(Failure::Panic(why)) => (report.verdict, report.error) = (Verdict::Failed, Some(why)),
+    }
+    report.ms = clock.elapsed().as_secs_f64() * 1e3;
+    report
+}
+
+fn describe(report: &mut RecordingReport, found: &Found, comparison: Comparison, problems: Vec<String>) {
+    let totals = &found.run.totals;
+    (report.events, report.cuts) = (found.run.events.len(), totals.cuts);
+    (report.applied, report.rejected) = (totals.applied, totals.rejected);
+    (report.checks, report.digest) = (found.run.checks(), totals.digest.clone());
+    report.findings = found.run.findings().collect();
+    (report.divergence, report.differing) = (comparison.divergence, comparison.differing);
+    (report.new, report.goldens) = (comparison.new, problems);
+    let clean = report.findings.is_empty() && report.divergence.is_none();
+    let known = report.new.is_empty() && report.goldens.is_empty();
+    report.verdict = if clean && known { Verdict::Verified } else { Verdict::Failed };
+}
+
+/// Whether a replay fails, and how: the name of its first broken invariant, such as `MC/manifold`, or `panic`. It goes no
+/// further than that.
+pub fn failure(mut replay: Box<dyn Replay>) -> Option<String> {
+    let name = catch_unwind(AssertUnwindSafe(|| {
+        while replay.finding().is_none() && replay.step().is_some() {}
+        replay.finding().map(|finding| finding.name())
+    }));
+    name.unwrap_or_else(|_| Some("panic".into()))
+}

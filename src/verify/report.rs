@@ -1,0 +1,121 @@
+//! What verifying came to, as plain data.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::Divergence;
+use crate::report::Finding;
+
+/// What became of a recording.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// It is what its goldens say, and every invariant held.
+    Verified,
+    /// An invariant broke, something diverged, or a golden is missing, damaged, orphaned or does not know something.
+    Failed,
+    /// It could not be replayed.
+    Unreadable,
+}
+
+/// What there is to say of a recording.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RecordingReport {
+    /// Its name: its path under `recordings`, or its path.
+    pub recording: String,
+    /// What became of it.
+    pub verdict: Verdict,
+    /// How many events it has.
+    pub events: usize,
+    /// How many of them took a cut through the stages.
+    pub cuts: usize,
+    /// How many were applied.
+    pub applied: usize,
+    /// How many were rejected.
+    pub rejected: usize,
+    /// How many invariants were looked at.
+    pub checks: usize,
+    /// The invariants that broke.
+    pub findings: Vec<Finding>,
+    /// Where it differs first from its goldens.
+    pub divergence: Option<Divergence>,
+    /// How many facts differ from its goldens.
+    pub differing: usize,
+    /// What its goldens do not know, such as `digest GP.jobs`.
+    pub new: Vec<String>,
+    /// Which goldens are missing, damaged or orphaned.
+    pub goldens: Vec<String>,
+    /// Why it could not be replayed, or how the replay broke down.
+    pub error: Option<String>,
+    /// Digest of the run.
+    pub digest: String,
+    /// Milliseconds from opening to the last comparison.
+    pub ms: f64,
+}
+
+impl RecordingReport {
+    /// A report of which nothing is known yet.
+    pub(super) fn new(recording: String) -> Self {
+        Self {
+            recording,
+            verdict: Verdict::Unreadable,
+            events: 0,
+            cuts: 0,
+            applied: 0,
+            rejected: 0,
+            checks: 0,
+            findings: Vec::new(),
+            divergence: None,
+            differing: 0,
+            new: Vec::new(),
+            goldens: Vec::new(),
+            error: None,
+            digest: String::new(),
+            ms: 0.0,
+        }
+    }
+
+    /// What is wrong, a line each; the first broken invariant stands for all.
+    pub fn problems(&self) -> Vec<String> {
+        let finding = self.findings.first().map(|f| {
+            let at = f.event.map_or("at the end".into(), |event| format!("event {event}"));
+            let culprits = f.check.culprits.join(" ");
+            format!("{at}: {} broke: {} {culprits}", f.name(), f.check.detail).trim_end().to_string()
+        });
+        let divergence = self.divergence.as_ref().map(ToString::to_string);
+        let new = (!self.new.is_empty()).then(|| format!("new: {}", self.new.join(", ")));
+        let lines = self.error.iter().cloned().chain(finding).chain(divergence).chain(new);
+        lines.chain(self.goldens.iter().cloned()).collect()
+    }
+}
+
+/// What verifying came to.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct VerifyReport {
+    /// Version of this layout.
+    pub schema: u32,
+    /// The recordings, by path.
+    pub recordings: Vec<RecordingReport>,
+    /// Goldens of recordings that are no more.
+    pub orphans: Vec<String>,
+    /// What could not be looked at.
+    pub errors: Vec<String>,
+    /// How many recordings were left out after the first failure.
+    pub left_out: usize,
+    /// Milliseconds of all.
+    pub ms: f64,
+}
+
+impl VerifyReport {
+    /// 0 all verified, 1 something diverged or an invariant broke, 2 bad input or it could not run.
+    pub fn exit_code(&self) -> u8 {
+        let any = |verdict| self.recordings.iter().any(|r| r.verdict == verdict);
+        if any(Verdict::Unreadable) || !self.errors.is_empty() {
+            2
+        } else if any(Verdict::Failed) || !self.orphans.is_empty() {
+            1
+        } else {
+            0
+        }
+    }
+}
