@@ -99,8 +99,12 @@ impl<'a> Channel<'a> {
         let _ = self.write_all(text.as_bytes()).and_then(|()| self.flush());
     }
 
-    /// Shows how far a command is: on a terminal, after a second, and at most ten times a second.
-    pub(super) fn progress(&mut self, what: &dyn Display) {
+    /// Begins a piece of work that may take long.
+    pub(super) fn work<'c>(&'c mut self) -> Work<'c, 'a> {
+        Work(self)
+    }
+
+    fn progress(&mut self, what: &dyn Display) {
         let Some(line) = &mut self.progress else { return };
         let waits = line.since.elapsed() < PATIENCE;
         if waits || line.drawn.is_some_and(|at| at.elapsed() < BETWEEN_DRAWINGS) {
@@ -130,6 +134,23 @@ impl<'a> Channel<'a> {
     }
 }
 
+/// A piece of work that shows how far it is: on a terminal, after a second, and at most ten times a second. Its line goes with it.
+pub(super) struct Work<'c, 'w>(&'c mut Channel<'w>);
+
+impl Work<'_, '_> {
+    /// Shows how far it is.
+    pub(super) fn show(&mut self, what: impl Display) {
+        self.0.progress(&what);
+    }
+}
+
+impl Drop for Work<'_, '_> {
+    fn drop(&mut self) {
+        // A terminal that cannot be written to shows no line either.
+        let _ = self.0.erase().and_then(|()| self.0.to.flush());
+    }
+}
+
 impl Write for Channel<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         if self.gone {
@@ -151,5 +172,45 @@ impl Write for Channel<'_> {
 impl Drop for Channel<'_> {
     fn drop(&mut self) {
         let _ = self.flush();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a terminal gets from a command that has run for some time.
+    fn terminal(since: Duration, command: impl FnOnce(&mut Channel<'_>)) -> String {
+        let mut written = Vec::new();
+        let mut channel = Channel::new(Box::new(&mut written), true, true);
+        channel.progress = Some(Line { since: Instant::now().checked_sub(since).unwrap(), drawn: None });
+        command(&mut channel);
+        drop(channel);
+        String::from_utf8(written).unwrap()
+    }
+
+    #[test]
+    fn progress_shows_after_a_second_and_goes_before_anything_else() {
+        let command = |channel: &mut Channel<'_>| {
+            let mut work = channel.work();
+            (1..=3).for_each(|i| work.show(format_args!("{i} of 3")));
+            drop(work);
+            writeln!(channel, "done").unwrap();
+        };
+        assert_eq!(
+            terminal(Duration::from_secs(2), command),
+            format!("{ERASE_LINE}1 of 3{ERASE_LINE}done\n")
+        );
+        assert_eq!(terminal(Duration::ZERO, command), "done\n");
+    }
+
+    #[test]
+    fn colour_is_for_those_who_want_it() {
+        assert_eq!(terminal(Duration::ZERO, |c| write!(c, "{}", c.good("x")).unwrap()), "\x1b[32mx\x1b[0m");
+        let mut plain = Vec::new();
+        let mut channel = Channel::new(Box::new(&mut plain), false, false);
+        write!(channel, "{}", channel.bad("x")).unwrap();
+        drop(channel);
+        assert_eq!(plain, b"x");
     }
 }

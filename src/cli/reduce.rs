@@ -43,9 +43,9 @@ impl Visit for Reducer<'_, '_, '_> {
             let found = failure(self.case, &E::wrap(candidate.clone()));
             found.is_ok_and(|found| found.as_deref() == Some(self.failure))
         };
-        let err = &mut self.console.err;
+        let mut work = self.console.err.work();
         let progress = |Progress { tried, events }: Progress| {
-            err.progress(&format_args!("{tried} tried, {events} of {} events", recording.events.len()));
+            work.show(format_args!("{tried} tried, {events} of {} events", recording.events.len()));
         };
         E::wrap(reduce(recording, fails_so, progress))
     }

@@ -7,27 +7,29 @@ use crate::assets;
 use crate::replay::{self, Case, Options};
 use crate::report::{RunReport, trace};
 
-/// A run that was made, and what it is a run of.
-struct Run {
-    replay: Box<dyn replay::Replay>,
-    report: RunReport,
-}
+/// A replay, where it ended.
+type Replayed = Box<dyn replay::Replay>;
 
 pub(super) fn run(typed: &Replay, console: &mut Console<'_>) -> Done {
     let case = Case::open(&typed.recording)?;
-    let runs =
-        (0..typed.repeat).map(|_| once(typed, &case, console)).collect::<Result<Vec<Run>, Failure>>()?;
-    let reports: Vec<RunReport> = runs.iter().map(|run| run.report.clone()).collect();
-    let Some(report) = RunReport::with_median_times(&reports) else { return Ok(Status::Verified) };
-    write(typed, &report, &runs, console)?;
-    let same = reports.iter().all(|other| other.totals.digest == report.totals.digest);
+    let (mut reports, mut last) = (Vec::new(), None);
+    for _ in 0..typed.repeat {
+        let (replayed, report) = once(typed, &case, console)?;
+        reports.push(report);
+        last = Some(replayed);
+    }
+    let Some((report, last)) = RunReport::with_median_times(&reports).zip(last) else {
+        return Ok(Status::Verified);
+    };
+    write(typed, &report, last.as_ref(), console)?;
+    let same = reports.iter().all(|other| other.without_times() == report.without_times());
     if !same {
-        console.err.note(format_args!("the runs differ from one another: that is a bug of lancet's"));
+        console.err.note("the runs differ from one another: that is a bug of lancet's");
     }
     Ok(if same && report.totals.findings == 0 { Status::Verified } else { Status::Diverged })
 }
 
-fn once(typed: &Replay, case: &Case, console: &mut Console<'_>) -> Result<Run, Failure> {
+fn once(typed: &Replay, case: &Case, console: &mut Console<'_>) -> Result<(Replayed, RunReport), Failure> {
     let options = Options { paranoid: typed.paranoid, ..Options::default() };
     let mut replay = case.replay(&case.recording, options)?;
     let name = typed.recording.display().to_string();
@@ -35,7 +37,7 @@ fn once(typed: &Replay, case: &Case, console: &mut Console<'_>) -> Result<Run, F
         None => to_the_end(replay.as_mut(), &name, console),
         Some(until) => up_to(until, replay.as_mut(), &name, console)?,
     };
-    Ok(Run { replay, report })
+    Ok((replay, report))
 }
 
 fn to_the_end(replay: &mut dyn replay::Replay, name: &str, console: &mut Console<'_>) -> RunReport {
@@ -69,20 +71,26 @@ fn up_to(
 }
 
 fn step_to(replay: &mut dyn replay::Replay, end: usize, console: &mut Console<'_>) {
+    let mut work = console.err.work();
     while replay.position() < end && replay.step().is_some() {
-        console.err.progress(&format_args!("event {} of {end}", replay.position()));
+        work.show(format_args!("event {} of {end}", replay.position()));
     }
 }
 
-fn write(typed: &Replay, report: &RunReport, runs: &[Run], console: &mut Console<'_>) -> Result<(), Failure> {
+fn write(
+    typed: &Replay,
+    report: &RunReport,
+    replay: &dyn replay::Replay,
+    console: &mut Console<'_>,
+) -> Result<(), Failure> {
     json::write(report, typed.json.as_ref(), console)?;
     if let Some(target) = &typed.trace {
         let mut spans = Vec::new();
         trace(report, &mut spans)?;
         json::put(&spans, target, console)?;
     }
-    if let Some((path, run)) = typed.export_mesh.as_deref().zip(runs.last()) {
-        let mesh = run.replay.mesh().ok_or_else(|| Failure::new("this engine has no mesh to export"))?;
+    if let Some(path) = &typed.export_mesh {
+        let mesh = replay.mesh().ok_or_else(|| Failure::new("this engine has no mesh to export"))?;
         assets::export::save(mesh, path)?;
     }
     Ok(show::run(report, json::text([&typed.json, &typed.trace], console))?)

@@ -7,7 +7,7 @@ use std::thread::available_parallelism;
 use anstyle::AnsiColor;
 
 use super::args::Verify;
-use super::console::Channel;
+use super::console::{Channel, Work};
 use super::table::{Cell, TextTable};
 use super::{Console, Done, Status, json};
 use crate::replay::Options;
@@ -46,18 +46,18 @@ pub(super) fn status(code: u8) -> Status {
 }
 
 /// The progress line, drawn from whichever thread is done.
-pub(super) struct Line<'c, 'w>(Mutex<&'c mut Channel<'w>>);
+pub(super) struct Line<'c, 'w>(Mutex<Work<'c, 'w>>);
 
 impl<'c, 'w> Line<'c, 'w> {
     pub(super) fn on(channel: &'c mut Channel<'w>) -> Self {
-        Self(Mutex::new(channel))
+        Self(Mutex::new(channel.work()))
     }
 }
 
 impl Progress for Line<'_, '_> {
     fn done(&self, done: usize, of: usize, recording: &str) {
-        let mut channel = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        channel.progress(&format_args!("{done} of {of} recordings, {recording}"));
+        let mut work = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        work.show(format_args!("{done} of {of} recordings, {recording}"));
     }
 }
 
