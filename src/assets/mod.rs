@@ -1,12 +1,13 @@
 //! Files: meshes as OBJ, glTF and PLY, scenes as JSON, and the binary cache of finished meshes. The only room that opens files.
 //!
-//! A mesh goes through four hands: a reader (`obj`, `ply`, `gltf`) makes triangles with their places in the file; [`weld`] makes equal positions one
-//! node; [`repair`] drops, turns and splits what can be mended in one way, and refuses the rest with the line or face named;
+//! A mesh goes through four hands: a reader (`obj`, `ply`, `gltf`) makes triangles with their places in the file; `weld` makes equal positions one
+//! node; `repair` drops, turns and splits what can be mended in one way, and refuses the rest with the line or face named;
 //! [`crate::mesh::Mesh::build`] makes the topology. What was changed on the way is told in [`Note`]s. The [`cache`] then keeps the result.
 //!
 //! Promised: whatever the bytes, a typed error or a manifold, oriented mesh; never a panic, never an allocation that the
 //! size of the file does not justify. Not promised: that a mesh does not intersect itself.
 
+pub mod builtin;
 pub mod cache;
 mod error;
 mod exact;
@@ -35,8 +36,6 @@ pub use inspect::{MeshFacts, inspect};
 pub use open::{Loaded, open};
 pub use scene::SceneSettings;
 
-use crate::mesh::IndexedMesh;
-
 /// Something that was changed or passed over while a mesh was read.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Note {
@@ -63,11 +62,6 @@ impl Notes for Vec<Note> {
     fn note(&mut self, what: &str, count: usize, detail: String) {
         self.push(Note::new(what, count, detail));
     }
-}
-
-/// A mesh made by code.
-fn builtin(name: &str) -> Result<IndexedMesh, String> {
-    Err(format!("there is no built-in scene `{name}`"))
 }
 
 #[cfg(test)]

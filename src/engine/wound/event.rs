@@ -177,7 +177,7 @@ impl Event for WoundEvent {
             Self::Camera(change) => validate_camera(change),
             Self::Click(at) => finite("click", at),
             Self::Cut { from, to } => validate_pick("from", from).and_then(|()| validate_pick("to", to)),
-            Self::Subdivide { at, into } if matches!(into, 3 | 4 | 6) => finite("at", at),
+            Self::Subdivide { at, into: 3 | 4 | 6 } => finite("at", at),
             Self::Subdivide { into, .. } => Err(format!("into: {into} is not 3, 4 or 6")),
             Self::Set(values) => values.iter().try_for_each(|(name, value)| validate_setting(name, value)),
             Self::Mode(_) | Self::Undo {} | Self::Redo {} | Self::Checkpoint(_) => Ok(()),
