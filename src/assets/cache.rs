@@ -3,12 +3,14 @@
 //! One file a mesh, named by blake3 of the format version, the kind of file and the file's content: a changed file has another name, so
 //! nothing can be stale. Layout, little-endian: magic, version, the notes as JSON with their length, the columns of the mesh
 //! ([`Mesh::write_raw`]), and blake3 of all that. What is damaged in any way is not there, and is written again. Writing
-//! goes through a file of its own that is then renamed, so that two programs cannot spoil each other's work; that it fails (a read-only
+//! goes through a file of its own that is then renamed, so that two programs or threads cannot spoil each other's work; that it fails (a read-only
 //! folder, a full disk) is no error. Verdicts are never kept, only meshes.
 
+use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, BufReader, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use etcetera::BaseStrategy as _;
 
@@ -22,6 +24,8 @@ const CHECKSUM: u64 = 32;
 /// Notes are a few lines; more is damage.
 const MOST_NOTE_BYTES: u32 = 1 << 20;
 const BUFFER: usize = 1 << 18;
+/// Numbers the drafts of this program, whose threads may write the same mesh.
+static DRAFTS: AtomicU64 = AtomicU64::new(0);
 
 /// Where finished meshes are kept, if anywhere.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -43,20 +47,16 @@ impl CacheOptions {
 
     /// In the folder that the environment variable `LANCET_CACHE_DIR` names (empty: no cache), else in the user's cache folder.
     pub fn from_environment() -> Self {
-        match std::env::var_os("LANCET_CACHE_DIR") {
-            Some(folder) if folder.is_empty() => Self::off(),
-            Some(folder) => Self::at(folder),
-            None => {
-                Self { folder: etcetera::choose_base_strategy().ok().map(|b| b.cache_dir().join("lancet")) }
-            }
-        }
+        let users = || etcetera::choose_base_strategy().ok().map(|b| b.cache_dir().join("lancet"));
+        Self::chosen(std::env::var_os("LANCET_CACHE_DIR"), users)
     }
 
-    /// The name under which the mesh of a file with this content is kept.
-    pub(super) fn key(&self, format: u8, content: &[u8; 32]) -> String {
-        let mut hasher = blake3::Hasher::new();
-        hasher.update(MAGIC).update(&VERSION.to_le_bytes()).update(&[format]).update(content);
-        format!("{}.mesh", hasher.finalize().to_hex())
+    fn chosen(variable: Option<OsString>, users: impl FnOnce() -> Option<PathBuf>) -> Self {
+        match variable {
+            Some(folder) if folder.is_empty() => Self::off(),
+            Some(folder) => Self::at(folder),
+            None => Self { folder: users() },
+        }
     }
 
     /// The mesh of that name, if it is there and whole.
@@ -67,7 +67,8 @@ impl CacheOptions {
     /// Keeps a mesh, if that is possible.
     pub(super) fn store(&self, key: &str, mesh: &Mesh, notes: &[Note]) {
         let Some(folder) = &self.folder else { return };
-        let draft = folder.join(format!("{key}.{}.draft", std::process::id()));
+        let number = DRAFTS.fetch_add(1, Ordering::Relaxed);
+        let draft = folder.join(format!("{key}.{}-{number}.draft", std::process::id()));
         let written = fs::create_dir_all(folder)
             .and_then(|()| write(&draft, mesh, notes))
             .and_then(|()| fs::rename(&draft, folder.join(key)));
@@ -76,6 +77,13 @@ impl CacheOptions {
             fs::remove_file(&draft).ok();
         }
     }
+}
+
+/// The name under which the mesh of a file with this content is kept.
+pub(super) fn key(format: u8, content: &[u8; 32]) -> String {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update(MAGIC).update(&VERSION.to_le_bytes()).update(&[format]).update(content);
+    format!("{}.mesh", hasher.finalize().to_hex())
 }
 
 fn write(path: &Path, mesh: &Mesh, notes: &[Note]) -> io::Result<()> {
@@ -155,5 +163,28 @@ impl<R: Read> Read for HashingReader<R> {
         let read = self.inner.read(bytes)?;
         self.hasher.update(&bytes[..read]);
         Ok(read)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_folder_is_the_variables_or_the_users() {
+        let chosen = |variable: Option<&str>| {
+            CacheOptions::chosen(variable.map(OsString::from), || Some("user".into())).folder
+        };
+        assert_eq!(chosen(Some("x")), Some("x".into()));
+        assert_eq!(chosen(Some("")), None);
+        assert_eq!(chosen(None), Some("user".into()));
+    }
+
+    #[test]
+    fn format_and_content_make_the_name() {
+        let content = [7; 32];
+        assert_eq!(key(0, &content), key(0, &content));
+        assert_ne!(key(0, &content), key(1, &content));
+        assert_ne!(key(0, &content), key(0, &[8; 32]));
     }
 }

@@ -1,7 +1,7 @@
 //! Files: meshes as OBJ, glTF and PLY, scenes as JSON, and the binary cache of finished meshes. The only room that opens files.
 //!
-//! A mesh goes through four hands: a reader (`obj`, `ply`, `gltf`) makes triangles with their places in the file; [`weld`] makes equal positions one
-//! node; [`repair`] drops, turns and splits what can be mended in one way, and refuses the rest with the line or face named;
+//! A mesh goes through four hands: a reader (`obj`, `ply`, `gltf`) makes triangles with their places in the file; `weld` makes equal positions one
+//! node; `repair` drops, turns and splits what can be mended in one way, and refuses the rest with the line or face named;
 //! [`crate::mesh::Mesh::build`] makes the topology. What was changed on the way is told in [`Note`]s. The [`cache`] then keeps the result.
 //!
 //! Promised: whatever the bytes, a typed error or a manifold, oriented mesh; never a panic, never an allocation that the

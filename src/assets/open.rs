@@ -7,7 +7,7 @@ use glam::{DVec3, Vec2};
 use super::error::{AssetError, Fault, FaultKind, Place};
 use super::scene::{self, SceneSettings};
 use super::source::{self, Source};
-use super::{CacheOptions, Note, builtin};
+use super::{CacheOptions, Note, builtin, cache};
 use crate::mesh::{IndexedMesh, Mesh};
 use crate::recording::{InlineMesh, SceneRef};
 
@@ -39,36 +39,36 @@ struct Opened {
 }
 
 /// Opens a scene. Paths in it are relative to `base`, those in a scene file to that file.
-pub fn open(scene: &SceneRef, base: &Path, cache: &CacheOptions) -> Result<Loaded, AssetError> {
+pub fn open(scene: &SceneRef, base: &Path, options: &CacheOptions) -> Result<Loaded, AssetError> {
     let (opened, settings) = match scene {
         SceneRef::Builtin(name) => (open_builtin(name)?, SceneSettings::default()),
-        SceneRef::File(path) => open_scene_file(&base.join(path), cache)?,
-        SceneRef::Mesh(path) => (open_mesh(&base.join(path), cache)?, SceneSettings::default()),
+        SceneRef::File(path) => open_scene_file(&base.join(path), options)?,
+        SceneRef::Mesh(path) => (open_mesh(&base.join(path), options)?, SceneSettings::default()),
         SceneRef::Inline(inline) => (open_inline(inline)?, SceneSettings::default()),
     };
     let Opened { mesh, notes, hash: mesh_hash, from_cache } = opened;
     Ok(Loaded { mesh, scene_hash: settings.hash(), settings, notes, mesh_hash, from_cache })
 }
 
-fn open_scene_file(path: &Path, cache: &CacheOptions) -> Result<(Opened, SceneSettings), AssetError> {
+fn open_scene_file(path: &Path, options: &CacheOptions) -> Result<(Opened, SceneSettings), AssetError> {
     let bytes = source::read_file(path)?;
     let (mesh, settings) = scene::parse(&bytes).map_err(|fault| fault.in_file(path))?;
     let opened = match mesh.strip_prefix(BUILTIN) {
         Some(name) => open_builtin(name),
-        None => open_mesh(&path.parent().unwrap_or(Path::new("")).join(&mesh), cache),
+        None => open_mesh(&path.parent().unwrap_or(Path::new("")).join(&mesh), options),
     };
     Ok((opened?, settings))
 }
 
-fn open_mesh(path: &Path, cache: &CacheOptions) -> Result<Opened, AssetError> {
+fn open_mesh(path: &Path, options: &CacheOptions) -> Result<Opened, AssetError> {
     let source = Source::read(path)?;
     let hash = source.hash();
-    let key = cache.key(source.format as u8, &hash);
-    if let Some((mesh, notes)) = cache.load(&key) {
+    let key = cache::key(source.format as u8, &hash);
+    if let Some((mesh, notes)) = options.load(&key) {
         return Ok(Opened { mesh, notes, hash, from_cache: true });
     }
     let (mesh, notes) = source.build()?;
-    cache.store(&key, &mesh, &notes);
+    options.store(&key, &mesh, &notes);
     Ok(Opened { mesh, notes, hash, from_cache: false })
 }
 

@@ -14,8 +14,10 @@ use glam::{DVec2, DVec3};
 
 use super::exact;
 
-/// Clipping a concave polygon looks at this many corners, times their number squared, at most.
-const TESTS_PER_CORNER_PAIR: usize = 4;
+/// Clipping a concave polygon of n corners looks at n² times this many corners at most, and at `FREE_TESTS` more: twenty times
+/// what a comb or a spiral takes, and a second for the largest.
+const TESTS_PER_CORNER_PAIR: usize = 16;
+const FREE_TESTS: usize = 1 << 20;
 /// A concave polygon with more corners is refused.
 const MOST_CONCAVE_CORNERS: usize = 10_000;
 
@@ -89,12 +91,14 @@ impl Triangulator {
             return Err(TooComplex);
         }
         self.link(n as u32);
-        let mut budget = TESTS_PER_CORNER_PAIR * n * n;
+        let mut budget = TESTS_PER_CORNER_PAIR * n * n + FREE_TESTS;
         let (mut left, mut misses, mut at) = (n, 0, 0);
         while left > 3 && misses < left {
-            budget = budget.checked_sub(left).ok_or(TooComplex)?;
+            if budget == 0 {
+                return Err(TooComplex);
+            }
             let [before, after] = [self.previous[at as usize], self.next[at as usize]];
-            if self.is_ear([before, at, after]) {
+            if self.is_ear([before, at, after], &mut budget) {
                 self.triangles.push([before, at, after]);
                 self.next[before as usize] = after;
                 self.previous[after as usize] = before;
@@ -115,7 +119,8 @@ impl Triangulator {
         self.next.extend((0..n).map(|i| (i + 1) % n));
     }
 
-    fn is_ear(&self, ear: [u32; 3]) -> bool {
+    /// Each corner looked at is taken from the budget.
+    fn is_ear(&self, ear: [u32; 3], budget: &mut usize) -> bool {
         if !self.turn(ear).is_gt() {
             return false;
         }
@@ -123,6 +128,7 @@ impl Triangulator {
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
         let mut other = self.next[ear[2] as usize];
         while other != ear[0] {
+            *budget = budget.saturating_sub(1);
             let p = self.points[other as usize];
             let near = p.cmpge(low).all() && p.cmple(high).all() && p != a && p != b && p != c;
             if near && [(a, b), (b, c), (c, a)].into_iter().all(|(s, t)| exact::side(s, t, p).is_ge()) {
@@ -226,5 +232,15 @@ mod tests {
     fn a_huge_concave_polygon_is_refused() {
         let zigzag = (0..MOST_CONCAVE_CORNERS + 1).map(|i| DVec3::new(i as f64, (i % 2) as f64, 0.0));
         assert!(Triangulator::default().run(zigzag).is_err());
+    }
+
+    #[test]
+    fn a_large_comb_is_cut_up() {
+        let teeth =
+            (0..=3000).rev().map(|i| DVec3::new(f64::from(i), if i % 2 == 0 { 1.0 } else { 10.0 }, 0.0));
+        let comb: Vec<DVec3> = [DVec3::ZERO, DVec3::new(3000.0, 0.0, 0.0)].into_iter().chain(teeth).collect();
+        let mut triangulator = Triangulator::default();
+        assert!(triangulator.run(comb.into_iter()).expect("simple"));
+        assert_eq!(triangulator.triangles.len(), 3001);
     }
 }

@@ -3,10 +3,10 @@
 //! Formats and exporters repeat a node wherever its attributes differ (along seams, at sharp edges), which tears the surface.
 //! Equal means equal bit for bit, once −0 is 0; nearly equal is not equal.
 //!
-//! - [`Rule::Own`] (OBJ, which has indices for positions alone): the file's own connectivity counts. Two faces that pass along
+//! - `Rule::Own` (OBJ, which has indices for positions alone): the file's own connectivity counts. Two faces that pass along
 //!   equal positions in opposite directions, and no third, are **stitched**: their ends become one. Nodes that only touch stay apart, so
 //!   two cubes that share an edge or a corner in space stay two cubes.
-//! - [`Rule::Position`] (glTF and PLY, which cannot say it): all equal positions become one node, unless an edge would get
+//! - `Rule::Position` (glTF and PLY, which cannot say it): all equal positions become one node, unless an edge would get
 //!   more than two faces by it; then stitching is the rule here too.
 //!
 //! A stitch can close an edge that others use already; then the nodes at its ends stay as they were in the file. So welding never

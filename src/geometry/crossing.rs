@@ -24,9 +24,10 @@ pub fn cross(a: &Corners, b: &Corners) -> bool {
     shared < 2 && (pierces(a, b) || pierces(b, a))
 }
 
-/// Whether an edge of `a` that has no corner in common with `b` passes through the inside of `b`.
+/// Whether an edge of `a` passes through the inside of `b`.
 fn pierces(a: &Corners, b: &Corners) -> bool {
-    let side = a.at.map(|p| orient3d(b.at[0], b.at[1], b.at[2], p));
+    let shared = a.ids.map(|id| b.ids.contains(&id));
+    let side = [0, 1, 2].map(|i| if shared[i] { Ordering::Equal } else { orient3d(b.at[0], b.at[1], b.at[2], a.at[i]) });
     if side.iter().all(|&s| s != Ordering::Less) || side.iter().all(|&s| s != Ordering::Greater) {
         return false;
     }

@@ -31,6 +31,10 @@ pub fn orient3d(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> Sign {
         // (a − d) × (b − d) · (c − d) has the opposite sign of ((b − a) × (c − a)) · (d − a).
         return if det < 0.0 { Ordering::Greater } else { Ordering::Less };
     }
+    // Common, and exact: a point is tested against a plane that goes through it.
+    if d == a || d == b || d == c {
+        return Ordering::Equal;
+    }
     sign(&Orient3d(a, b, c, d))
 }
 

@@ -239,20 +239,24 @@ fn make_vertices(input: &IndexedMesh) -> (Vec<Vertex>, Vec<[u32; 3]>) {
     if input.face_uvs.is_empty() {
         return (vec![blank(Vec2::ZERO); input.positions.len()], input.faces.clone());
     }
-    let mut first = vec![u32::MAX; input.positions.len()];
+    // Chained by a hash of node and texture coordinate: a pole may have as many of these as it has faces.
+    let bits = input.positions.len().next_power_of_two().ilog2();
+    let mut first = vec![u32::MAX; 1 << bits];
     let mut vertices: Vec<Vertex> = Vec::with_capacity(input.uvs.len());
     let mut next: Vec<u32> = Vec::with_capacity(input.uvs.len());
     let mut corner = |node: u32, uv: u32| {
         let uv = input.uvs[uv as usize] + Vec2::ZERO;
-        let mut at = first[node as usize];
+        let bucket = bucket_of(node, uv, bits);
+        let mut at = first[bucket];
+        // Within a list equal coordinates are those of one node, see `bucket_of`.
         while at != u32::MAX && vertices[at as usize].uv != uv {
             at = next[at as usize];
         }
         if at == u32::MAX {
             at = vertices.len() as u32;
             vertices.push(blank(uv));
-            next.push(first[node as usize]);
-            first[node as usize] = at;
+            next.push(first[bucket]);
+            first[bucket] = at;
         }
         at
     };
@@ -262,25 +266,39 @@ fn make_vertices(input: &IndexedMesh) -> (Vec<Vertex>, Vec<[u32; 3]>) {
     (vertices, face_vertices)
 }
 
-/// The edges, and each face's three. Every edge is listed at its smaller node.
+/// Where a node's vertex is looked for among 2^bits lists. Most nodes have one vertex, so the node leads and neighbours stay
+/// neighbours; the texture coordinate scatters the others. With one coordinate, different nodes have different lists.
+fn bucket_of(node: u32, uv: Vec2, bits: u32) -> usize {
+    let mixed =
+        (u64::from(uv.x.to_bits()) << 32 | u64::from(uv.y.to_bits())).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let spread = if bits == 0 { 0 } else { (mixed >> (64 - bits)) as usize };
+    (node as usize ^ spread) & ((1 << bits) - 1)
+}
+
+/// The edges, and each face's three. Every edge is listed at the end that has fewer faces, which keeps the lists short even at
+/// the tip of a cone.
 fn make_edges(input: &IndexedMesh) -> Result<(Vec<Edge>, Vec<[EdgeId; 3]>), BuildError> {
     let mut first = vec![u32::MAX; input.positions.len()];
     let mut next: Vec<u32> = Vec::with_capacity(input.faces.len() * 3 / 2 + 64);
     let mut edges: Vec<Edge> = Vec::with_capacity(input.faces.len() * 3 / 2 + input.faces.len() / 16 + 128);
     let mut face_edges = vec![[EdgeId::NONE; 3]; input.faces.len()];
+    let mut valence = vec![0u32; input.positions.len()];
+    input.faces.iter().flatten().for_each(|&n| valence[n as usize] += 1);
     for (f, face) in input.faces.iter().enumerate() {
         for side in 0..3 {
             let (a, b) = (face[side], face[(side + 1) % 3]);
-            let (low, nodes) = (a.min(b), [NodeId(a), NodeId(b)]);
-            let mut at = first[low as usize];
-            while at != u32::MAX && !edges[at as usize].nodes.contains(&NodeId(a.max(b))) {
+            let nodes = [NodeId(a), NodeId(b)];
+            let (home, other) =
+                if (valence[a as usize], a) < (valence[b as usize], b) { (a, b) } else { (b, a) };
+            let mut at = first[home as usize];
+            while at != u32::MAX && !edges[at as usize].nodes.contains(&NodeId(other)) {
                 at = next[at as usize];
             }
             if at == u32::MAX {
                 at = edges.len() as u32;
                 edges.push(Edge { nodes, faces: [FaceId::of(f), FaceId::NONE] });
-                next.push(first[low as usize]);
-                first[low as usize] = at;
+                next.push(first[home as usize]);
+                first[home as usize] = at;
             } else {
                 let edge = &mut edges[at as usize];
                 let named = [a as usize, b as usize];

@@ -203,3 +203,57 @@ fn read_rows<T: Row>(input: &mut impl Read, limit: u64) -> io::Result<Vec<T>> {
     }
     Ok(rows)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::IndexedMesh;
+
+    fn bytes() -> Vec<u8> {
+        let strip = IndexedMesh {
+            positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ONE],
+            faces: vec![[0, 1, 2], [1, 3, 2]],
+            uvs: vec![Vec2::X],
+            face_uvs: vec![[0; 3]; 2],
+            surfaces: vec![Surface::Skin, Surface::Gutter],
+        };
+        let mut bytes = Vec::new();
+        Mesh::build(&strip).expect("a strip").write_raw(&mut bytes).expect("to memory");
+        bytes
+    }
+
+    fn read(bytes: &[u8]) -> Option<Mesh> {
+        Mesh::read_raw(&mut &*bytes, bytes.len() as u64).ok()?.validate().ok()
+    }
+
+    #[test]
+    fn columns_come_back() {
+        let mesh = read(&bytes()).expect("a mesh");
+        let mut again = Vec::new();
+        mesh.write_raw(&mut again).expect("to memory");
+        assert_eq!(again, bytes());
+        assert!(mesh.is_textured() && mesh.face(FaceId(1)).surface == Surface::Gutter);
+    }
+
+    #[test]
+    fn an_index_that_points_nowhere_is_refused() {
+        // Faces are last: two rows of ten words; a surface may be 0 or 1, everything else counts to six at most.
+        let (whole, rows) = (bytes(), 2 * 10);
+        for word in 0..rows {
+            let mut damaged = whole.clone();
+            let at = whole.len() - 4 * (rows - word);
+            damaged[at] = 7;
+            assert!(read(&damaged).is_none(), "word {word} of the faces");
+        }
+    }
+
+    #[test]
+    fn a_count_beyond_the_input_is_refused() {
+        let mut damaged = bytes();
+        damaged[1..9].copy_from_slice(&u64::MAX.to_le_bytes());
+        assert!(read(&damaged).is_none());
+        damaged[1..9].copy_from_slice(&5u64.to_le_bytes());
+        assert!(read(&damaged).is_none());
+        assert!((0..bytes().len()).all(|end| read(&bytes()[..end]).is_none()));
+    }
+}

@@ -9,6 +9,7 @@ mod accessor;
 mod buffers;
 
 use glam::{DMat4, DVec3, Vec2};
+use gltf::json::validation::Checked;
 use gltf::mesh::Mode;
 use gltf::{Document, Gltf, Node, Primitive, Semantic};
 
@@ -31,7 +32,24 @@ pub(super) fn read(bytes: &[u8], buffers: &[Vec<u8>]) -> Result<Soup, Fault> {
 }
 
 fn parse(bytes: &[u8]) -> Result<Gltf, Fault> {
-    Gltf::from_slice(bytes).map_err(|error| Fault::whole(FaultKind::Syntax, error.to_string()))
+    let invalid = |error: gltf::Error| Fault::whole(FaultKind::Syntax, error.to_string());
+    let Gltf { document, blob } = Gltf::from_slice_without_validation(bytes).map_err(invalid)?;
+    let root = document.into_json();
+    check_positions(&root)?;
+    Ok(Gltf { document: Document::from_json(root).map_err(invalid)?, blob })
+}
+
+/// The crate's validation takes it that the accessor of positions exists, and panics where it does not.
+fn check_positions(root: &gltf::json::Root) -> Result<(), Fault> {
+    let key = Checked::Valid(Semantic::Positions);
+    for (number, mesh) in root.meshes.iter().enumerate() {
+        let positions = mesh.primitives.iter().filter_map(|p| p.attributes.get(&key));
+        if let Some(accessor) = positions.map(|i| i.value()).find(|&i| i >= root.accessors.len()) {
+            let detail = format!("mesh {number} names accessor {accessor}, which does not exist");
+            return Err(Fault::whole(FaultKind::Index, detail));
+        }
+    }
+    Ok(())
 }
 
 struct Collector<'a> {

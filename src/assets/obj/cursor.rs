@@ -162,7 +162,7 @@ impl<'a> Cursor<'a> {
 
     #[inline]
     fn is_word_end(&self, at: usize) -> bool {
-        self.bytes.get(at).is_none_or(|b| b.is_ascii_whitespace() || matches!(b, b'\\' | b'#' | 0x0b))
+        self.bytes.get(at).is_none_or(|b| b.is_ascii_whitespace() || matches!(b, b'\\' | 0x0b))
     }
 
     fn fault(&self, kind: FaultKind, what: &str) -> Fault {

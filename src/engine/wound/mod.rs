@@ -26,6 +26,8 @@ mod show;
 mod stages;
 mod state;
 pub mod subdivide;
+#[cfg(test)]
+mod tests;
 
 pub use engine::Wound;
 pub use event::{CameraChange, Mode, Pick, SETTINGS, Value, WoundEvent};

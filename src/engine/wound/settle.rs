@@ -103,7 +103,7 @@ fn divided_faces(mesh: &Mesh, chain: &Chain) -> Vec<(FaceId, Vec<usize>)> {
     let mut faces: Vec<(FaceId, Vec<usize>)> = Vec::with_capacity(chain.links.len() + 2);
     for (i, point) in chain.points.iter().enumerate() {
         // Neighbouring points share faces; only the last point can come back to the first one's.
-        let recent = if i + 1 == chain.points.len() { faces.len() } else { 3 };
+        let recent = if i + 1 == chain.points.len() { usize::MAX } else { 4 };
         let mut add = |face: FaceId| {
             let known = faces.iter().rev().take(recent).position(|f| f.0 == face);
             match known {

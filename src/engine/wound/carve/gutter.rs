@@ -12,6 +12,7 @@ use std::ops::RangeInclusive;
 use glam::{DVec3, Vec2};
 use rustc_hash::FxHashMap;
 
+use super::opening::Opening;
 use super::slit::Slit;
 use super::{Carved, Opened, Place, least};
 use crate::engine::wound::merge::{Line, face_box};
@@ -23,7 +24,9 @@ use crate::report::Rejection;
 /// How much of the tissue below a node its gutter may take.
 const SHARE_OF_TISSUE: f64 = 0.5;
 /// How often a depth is halved to keep the gutter from crossing something.
-const HALVINGS: usize = 48;
+const HALVINGS: usize = 40;
+/// After how many of them the opening narrows too.
+const PATIENCE: usize = 6;
 
 /// The direction in which the gutter goes down from each opened node: in the cutting plane, unit length.
 pub fn inward(place: &Place<'_>, line: &Line, range: &RangeInclusive<usize>) -> Vec<DVec3> {
@@ -63,6 +66,7 @@ fn in_plane(place: &Place<'_>, normal: DVec3, tangent: DVec3) -> DVec3 {
 pub fn dig(
     place: &mut Place<'_>,
     carved: &mut Carved,
+    opening: Opening,
     slit: &Slit,
     inward: &[DVec3],
 ) -> Result<(), Rejection> {
@@ -80,7 +84,7 @@ pub fn dig(
         let beside = slit.right_faces[i].0;
         link.iter().for_each(|_| place.bvh.insert(beside, &|f| face_box(place.mesh, f)));
     }
-    keep_clear(place, carved, inward, &links)?;
+    keep_clear(place, carved, opening, inward, &links)?;
     shade(place.mesh, carved);
     Ok(())
 }
@@ -200,9 +204,13 @@ fn add_face(
 }
 
 /// Makes the gutter shallower wherever it crosses something, until it crosses nothing.
+///
+/// Less depth alone helps where the bottom is in the way. Where a rim is (it was moved through a wall of an earlier cut, say), the
+/// opening narrows too: with neither width nor depth the gutter is the line, which crosses nothing.
 fn keep_clear(
     place: &mut Place<'_>,
     carved: &mut Carved,
+    mut opening: Opening,
     inward: &[DVec3],
     links: &[Vec<FaceId>],
 ) -> Result<(), Rejection> {
@@ -231,9 +239,13 @@ fn keep_clear(
             }
             place.mesh.set_position(o.bottom, o.at + inward[i] * o.depth);
         }
-        suspects =
-            shallow.iter().flat_map(|&i| [i.saturating_sub(1), i]).filter(|&l| l < links.len()).collect();
+        suspects = shallow.iter().flat_map(|&i| [i - 1, i]).collect();
         suspects.dedup();
+        let stuck: Vec<usize> = shallow.into_iter().filter(|&i| halved[i] > PATIENCE).collect();
+        if !stuck.is_empty() {
+            opening.narrow(place, carved, &stuck)?;
+            suspects = (0..links.len()).collect();
+        }
         for &l in &suspects {
             links[l].iter().for_each(|f| place.bvh.update(f.0, &|f| face_box(place.mesh, f)));
         }

@@ -105,8 +105,8 @@ pub fn carve(place: &mut Place<'_>, line: Line) -> Result<Carved, Rejection> {
     let slit = slit::slit(place.mesh, &line, &widths.range)?;
     slit.faces.iter().for_each(|f| place.bvh.update(f.0, &|f| super::merge::face_box(place.mesh, f)));
     let mut carved = widths.start(line, &slit);
-    opening::open(place, &mut carved)?;
-    gutter::dig(place, &mut carved, &slit, &inward)?;
+    let opening = opening::Opening::make(place, &mut carved)?;
+    gutter::dig(place, &mut carved, opening, &slit, &inward)?;
     Ok(carved)
 }
 

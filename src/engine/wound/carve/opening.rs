@@ -105,50 +105,74 @@ impl Widths {
 #[derive(Clone, Copy, Debug)]
 struct Near {
     node: NodeId,
+    /// Where it was before the opening.
+    from: DVec3,
     /// Place among the opened nodes: index and fraction towards the next.
     along: (usize, f64),
+    /// From −1, all of it to the right, to 1, all of it to the left.
     share: f64,
 }
 
-/// Moves the rims apart, and the neighbourhood with them.
-pub fn open(place: &mut Place<'_>, carved: &mut Carved) -> Result<(), Rejection> {
-    for o in &mut carved.opened {
-        o.at = place.mesh.position(o.left);
-    }
-    let towards_left = left_direction(place, carved);
-    let mut narrow = vec![1.0; carved.opened.len()];
-    let planned: Vec<f64> = carved.opened.iter().map(|o| o.half_width).collect();
-    let mut spread = Spread::default();
-    for (i, factor) in SPREADS.iter().enumerate() {
-        let next = Spread::over(place, carved, factor * carved.cod, towards_left);
-        let faults = next.faults(place, carved, towards_left, &narrow);
-        if i == 0 || faults.len() < spread.folded {
-            spread = Spread { folded: faults.len(), ..next };
+/// An opening that can still be narrowed.
+pub struct Opening {
+    spread: Spread,
+    left: DVec3,
+    planned: Vec<f64>,
+    /// What is left of each node's planned width.
+    share: Vec<f64>,
+}
+
+impl Opening {
+    /// Moves the rims apart, and the neighbourhood with them.
+    pub fn make(place: &mut Place<'_>, carved: &mut Carved) -> Result<Self, Rejection> {
+        for o in &mut carved.opened {
+            o.at = place.mesh.position(o.left);
         }
-        if faults.is_empty() {
-            break;
+        let left = left_direction(place, carved);
+        let planned = carved.opened.iter().map(|o| o.half_width).collect();
+        let share = vec![1.0; carved.opened.len()];
+        let spread = Spread::fitting(place, carved, left);
+        carved.stretched = spread.faces.iter().map(|&(f, _)| (f, place.mesh.triangle(f))).collect();
+        let mut opening = Self { spread, left, planned, share };
+        opening.settle(place, carved)?;
+        Ok(opening)
+    }
+
+    /// Halves the opening at some nodes.
+    pub fn narrow(
+        &mut self,
+        place: &mut Place<'_>,
+        carved: &mut Carved,
+        nodes: &[usize],
+    ) -> Result<(), Rejection> {
+        nodes.iter().for_each(|&i| self.share[i] *= 0.5);
+        self.settle(place, carved)
+    }
+
+    /// Halves the opening wherever a face would fold over, until none does, and moves what is to move.
+    fn settle(&mut self, place: &mut Place<'_>, carved: &mut Carved) -> Result<(), Rejection> {
+        for round in 0..=HALVINGS {
+            for (o, (planned, share)) in carved.opened.iter_mut().zip(self.planned.iter().zip(&self.share)) {
+                o.half_width = planned * share;
+            }
+            let faults = self.spread.faults(carved, self.left);
+            let Some(first) = faults.first() else { break };
+            if round == HALVINGS {
+                let detail = format!("{} folds over however little the cut opens", first.0);
+                return Err(Rejection::new("fold", detail));
+            }
+            let mut blamed: Vec<usize> = faults.iter().flat_map(|f| f.1.iter().copied()).collect();
+            blamed.sort_unstable();
+            blamed.dedup();
+            blamed.into_iter().for_each(|i| self.share[i] *= 0.5);
         }
-    }
-    for round in 0..=HALVINGS {
-        let faults = spread.faults(place, carved, towards_left, &narrow);
-        let Some(first) = faults.first() else { break };
-        if round == HALVINGS {
-            let detail = format!("{} folds over however little the cut opens", first.0);
-            return Err(Rejection::new("fold", detail));
+        carved.narrowed = self.share.iter().filter(|&&n| n < 1.0).count();
+        if carved.opened.iter().any(|o| o.left != o.right && 2.0 * o.half_width < least(place.largest)) {
+            return Err(Rejection::new("fold", "the tissue beside the line is too narrow for it to open"));
         }
-        for &i in faults.iter().flat_map(|f| &f.1) {
-            narrow[i] *= 0.5;
-        }
+        self.spread.apply(place, carved, self.left);
+        Ok(())
     }
-    for (i, o) in carved.opened.iter_mut().enumerate() {
-        o.half_width = planned[i] * narrow[i];
-    }
-    carved.narrowed = narrow.iter().filter(|&&n| n < 1.0).count();
-    if carved.opened.iter().any(|o| o.half_width != 0.0 && 2.0 * o.half_width < least(place.largest)) {
-        return Err(Rejection::new("fold", "the tissue beside the line is too narrow for it to open"));
-    }
-    spread.apply(place, carved, towards_left);
-    Ok(())
 }
 
 /// The direction in which the left rim moves: û or −û, as the faces beside the line lie.
@@ -171,14 +195,29 @@ fn left_direction(place: &Place<'_>, carved: &Carved) -> DVec3 {
 #[derive(Default)]
 struct Spread {
     near: Vec<Near>,
-    /// Each face at a moved node, with the places of its corners in `near` (`usize::MAX` for those that stay).
+    /// Each face at a moved node as it lies before the opening, with the places of its corners in `near` (`usize::MAX` for those that
+    /// stay).
     faces: Vec<(FaceId, [usize; 3])>,
-    /// On which side each of `near` lies: +1 left, −1 right.
-    sides: Vec<f64>,
-    folded: usize,
+    closed: Vec<[DVec3; 3]>,
 }
 
 impl Spread {
+    /// The smallest spread that folds nothing over, or else the one that folds over least.
+    fn fitting(place: &Place<'_>, carved: &Carved, left: DVec3) -> Self {
+        let mut best: Option<(usize, Self)> = None;
+        for factor in SPREADS {
+            let spread = Self::over(place, carved, factor * carved.cod, left);
+            let folded = spread.faults(carved, left).len();
+            if best.as_ref().is_none_or(|b| folded < b.0) {
+                best = Some((folded, spread));
+            }
+            if folded == 0 {
+                break;
+            }
+        }
+        best.map(|b| b.1).unwrap_or_default()
+    }
+
     /// Walks over the surface from both rims, as far as `radius` from the line.
     fn over(place: &Place<'_>, carved: &Carved, radius: f64, left: DVec3) -> Self {
         let mut spread = Self::default();
@@ -189,8 +228,8 @@ impl Spread {
                 let o = &carved.opened[i];
                 let node = if side > 0.0 { o.left } else { o.right };
                 at.insert(node, spread.near.len());
-                spread.near.push(Near { node, along: (i, 0.0), share: 1.0 });
-                spread.sides.push(side);
+                let from = place.mesh.position(node);
+                spread.near.push(Near { node, from, along: (i, 0.0), share: side });
             }
         }
         for end in [0, carved.opened.len() - 1] {
@@ -235,8 +274,8 @@ impl Spread {
         if share <= 0.0 || side == 0.0 || place.mesh.is_boundary_node(node) {
             return false;
         }
-        self.near.push(Near { node, along, share });
-        self.sides.push(side * left.dot(place.plane.unit()).signum());
+        let share = share * side * left.dot(place.plane.unit()).signum();
+        self.near.push(Near { node, from: position, along, share });
         true
     }
 
@@ -247,60 +286,46 @@ impl Spread {
         faces.dedup();
         let corner = |n: NodeId| at.get(&n).copied().unwrap_or(usize::MAX);
         self.faces = faces.into_iter().map(|f| (f, place.mesh.face(f).nodes.map(corner))).collect();
+        self.closed = self.faces.iter().map(|f| place.mesh.triangle(f.0)).collect();
     }
 
-    /// How far a node moves.
-    fn shift(&self, i: usize, carved: &Carved, left: DVec3, narrow: &[f64]) -> DVec3 {
-        let Near { along: (k, t), share, .. } = self.near[i];
-        let half = |k: usize| carved.opened.get(k).map_or(0.0, |o| o.half_width * narrow[k]);
-        left * (self.sides[i] * share * (half(k) * (1.0 - t) + half(k + 1) * t))
-    }
-
-    fn shifts(&self, carved: &Carved, left: DVec3, narrow: &[f64]) -> Vec<DVec3> {
-        (0..self.near.len()).map(|i| self.shift(i, carved, left, narrow)).collect()
+    /// How far each node moves.
+    fn shifts(&self, carved: &Carved, left: DVec3) -> Vec<DVec3> {
+        let half = |k: usize| carved.opened.get(k).map_or(0.0, |o| o.half_width);
+        let shift = |n: &Near| {
+            left * (n.share * (half(n.along.0) * (1.0 - n.along.1) + half(n.along.0 + 1) * n.along.1))
+        };
+        self.near.iter().map(shift).collect()
     }
 
     /// The faces that would fold over, and the opened nodes whose opening is to blame.
-    fn faults(
-        &self,
-        place: &Place<'_>,
-        carved: &Carved,
-        left: DVec3,
-        narrow: &[f64],
-    ) -> Vec<(FaceId, Vec<usize>)> {
-        let shifts = self.shifts(carved, left, narrow);
-        let folds = |&(face, corners): &(FaceId, [usize; 3])| {
-            let old = place.mesh.triangle(face);
+    fn faults(&self, carved: &Carved, left: DVec3) -> Vec<(FaceId, Vec<usize>)> {
+        let shifts = self.shifts(carved, left);
+        let folds = |(&(face, corners), old): (&(FaceId, [usize; 3]), &[DVec3; 3])| {
             let new = [0, 1, 2].map(|k| old[k] + shifts.get(corners[k]).copied().unwrap_or(DVec3::ZERO));
-            (facing(old, new) != Ordering::Greater).then(|| (face, self.blame(carved, &corners)))
+            (facing(*old, new) != Ordering::Greater).then(|| (face, self.blame(carved, &corners)))
         };
-        self.faces.iter().filter_map(folds).collect()
+        self.faces.iter().zip(&self.closed).filter_map(folds).collect()
     }
 
     fn blame(&self, carved: &Carved, corners: &[usize; 3]) -> Vec<usize> {
         let last = carved.opened.len() - 1;
         let places =
             corners.iter().filter_map(|&c| self.near.get(c)).flat_map(|n| [n.along.0, n.along.0 + 1]);
-        let mut blamed: Vec<usize> = places.filter(|&k| k > 0 && k < last).collect();
-        blamed.sort_unstable();
-        blamed.dedup();
-        blamed
+        places.filter(|&k| k > 0 && k < last).collect()
     }
 
     fn apply(&self, place: &mut Place<'_>, carved: &mut Carved, left: DVec3) {
-        let none = vec![1.0; carved.opened.len()];
-        carved.stretched = self.faces.iter().map(|&(f, _)| (f, place.mesh.triangle(f))).collect();
         let rims = 2 * (carved.opened.len() - 2);
-        for (i, shift) in self.shifts(carved, left, &none).into_iter().enumerate() {
-            let node = self.near[i].node;
-            let old = place.mesh.position(node);
-            if shift == DVec3::ZERO {
-                continue;
+        carved.moved.clear();
+        for (i, (near, shift)) in self.near.iter().zip(self.shifts(carved, left)).enumerate() {
+            let to = near.from + shift;
+            if i >= rims && to != near.from {
+                carved.moved.push((near.node, near.from));
             }
-            if i >= rims {
-                carved.moved.push((node, old));
+            if place.mesh.position(near.node) != to {
+                place.mesh.set_position(near.node, to);
             }
-            place.mesh.set_position(node, old + shift);
         }
         let mesh = &*place.mesh;
         self.faces.iter().for_each(|(f, _)| place.bvh.update(f.0, &|f| face_box(mesh, f)));

@@ -1,0 +1,185 @@
+//! Meshes, and a driver that runs a cut through all stages and looks at every invariant.
+
+use std::collections::BTreeMap;
+
+use glam::{DVec3, Vec2};
+
+use crate::engine::wound::{Mode, Pick, Scene, State, Wound, WoundEvent};
+use crate::engine::{Engine, Part, Start};
+use crate::mesh::{IndexedMesh, Mesh};
+use crate::report::Outcome;
+
+/// A sphere: an icosahedron whose faces are divided `n` times.
+pub(super) fn sphere(divisions: usize) -> IndexedMesh {
+    let t = (1.0 + 5f64.sqrt()) / 2.0;
+    let corners = [
+        (-1.0, t, 0.0),
+        (1.0, t, 0.0),
+        (-1.0, -t, 0.0),
+        (1.0, -t, 0.0),
+        (0.0, -1.0, t),
+        (0.0, 1.0, t),
+        (0.0, -1.0, -t),
+        (0.0, 1.0, -t),
+        (t, 0.0, -1.0),
+        (t, 0.0, 1.0),
+        (-t, 0.0, -1.0),
+        (-t, 0.0, 1.0),
+    ];
+    let mut positions: Vec<DVec3> =
+        corners.iter().map(|&(x, y, z)| DVec3::new(x, y, z).normalize() * 10.0).collect();
+    let mut faces: Vec<[u32; 3]> = vec![
+        [0, 11, 5],
+        [0, 5, 1],
+        [0, 1, 7],
+        [0, 7, 10],
+        [0, 10, 11],
+        [1, 5, 9],
+        [5, 11, 4],
+        [11, 10, 2],
+        [10, 7, 6],
+        [7, 1, 8],
+        [3, 9, 4],
+        [3, 4, 2],
+        [3, 2, 6],
+        [3, 6, 8],
+        [3, 8, 9],
+        [4, 9, 5],
+        [2, 4, 11],
+        [6, 2, 10],
+        [8, 6, 7],
+        [9, 8, 1],
+    ];
+    for _ in 0..divisions {
+        let mut middles: BTreeMap<(u32, u32), u32> = BTreeMap::new();
+        let mut middle = |a: u32, b: u32, positions: &mut Vec<DVec3>| {
+            *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
+                positions.push((positions[a as usize] + positions[b as usize]).normalize() * 10.0);
+                positions.len() as u32 - 1
+            })
+        };
+        faces = faces
+            .iter()
+            .flat_map(|&[a, b, c]| {
+                let (ab, bc, ca) = (
+                    middle(a, b, &mut positions),
+                    middle(b, c, &mut positions),
+                    middle(c, a, &mut positions),
+                );
+                [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
+            })
+            .collect();
+    }
+    let uvs =
+        positions.iter().map(|p| Vec2::new((p.x / 25.0 + 0.5) as f32, (p.y / 25.0 + 0.5) as f32)).collect();
+    IndexedMesh { face_uvs: faces.clone(), positions, faces, uvs, ..IndexedMesh::default() }
+}
+
+/// A closed plate of n x n squares in the plane z = 0, two units wide each, facing +z, with a back at z = −4: exact coordinates.
+pub(super) fn plate(n: u32) -> IndexedMesh {
+    let mut mesh = IndexedMesh::default();
+    let at = |i: u32, j: u32, back: u32| back * (n + 1) * (n + 1) + j * (n + 1) + i;
+    for back in 0..2 {
+        for j in 0..=n {
+            for i in 0..=n {
+                mesh.positions.push(DVec3::new(
+                    2.0 * i as f64 - n as f64,
+                    2.0 * j as f64 - n as f64,
+                    -4.0 * back as f64,
+                ));
+            }
+        }
+    }
+    let mut quad = |a, b, c, d| mesh.faces.extend([[a, b, c], [a, c, d]]);
+    for j in 0..n {
+        for i in 0..n {
+            quad(at(i, j, 0), at(i + 1, j, 0), at(i + 1, j + 1, 0), at(i, j + 1, 0));
+            quad(at(i, j, 1), at(i, j + 1, 1), at(i + 1, j + 1, 1), at(i + 1, j, 1));
+        }
+    }
+    for i in 0..n {
+        quad(at(i, 0, 1), at(i + 1, 0, 1), at(i + 1, 0, 0), at(i, 0, 0));
+        quad(at(i, n, 0), at(i + 1, n, 0), at(i + 1, n, 1), at(i, n, 1));
+        quad(at(0, i, 1), at(0, i, 0), at(0, i + 1, 0), at(0, i + 1, 1));
+        quad(at(n, i, 0), at(n, i, 1), at(n, i + 1, 1), at(n, i + 1, 0));
+    }
+    mesh
+}
+
+/// A state that looks at a mesh from +z.
+pub(super) fn state(mesh: &IndexedMesh) -> State {
+    let scene = Scene {
+        viewport: [640, 360],
+        unit_cm: 1.0,
+        snap_px: 0.0,
+        fov_y: 0.6,
+        target: None,
+        azimuth: 0.0,
+        zenith: std::f64::consts::FRAC_PI_2,
+        distance: None,
+    };
+    State::new(Mesh::build(mesh).unwrap(), scene)
+}
+
+/// Runs an event as the session does; every broken invariant is a panic. Gives the outcome and, for a rejection, its reason and detail.
+pub(super) fn run(state: &mut State, event: &WoundEvent) -> (Outcome, String) {
+    let mut work = match Wound::start(state, event, 0) {
+        Start::Done(outcome) => return (outcome, String::new()),
+        Start::Rejected(r) => return (Outcome::Rejected, format!("{}: {}", r.reason, r.detail)),
+        Start::Run(work) => work,
+    };
+    for stage in Wound::STAGES {
+        if (stage.part)(&work) != Part::Run {
+            continue;
+        }
+        if let Err(r) = (stage.run)(state, &mut work) {
+            Wound::rollback(state, &mut work);
+            return (Outcome::Rejected, format!("{}: {}", r.reason, r.detail));
+        }
+        let broken: Vec<_> = (stage.check)(state, &work).into_iter().filter(|c| !c.ok).collect();
+        if !broken.is_empty() {
+            if let crate::engine::wound::Work::Cut(c) = &work {
+                eprintln!("{:#?}\n{:?}", c.formed.chain.points, c.formed.refinement);
+            }
+        }
+        assert!(broken.is_empty(), "{} of {event:?}: {broken:#?}", stage.id);
+    }
+    Wound::commit(state, &mut work);
+    (Outcome::Applied, String::new())
+}
+
+pub(super) fn cut(state: &mut State, from: Pick, to: Pick) -> (Outcome, String) {
+    run(state, &WoundEvent::Cut { from, to })
+}
+
+pub(super) fn mode(state: &mut State, mode: Mode) {
+    run(state, &WoundEvent::Mode(mode));
+}
+
+/// The whole state must be sound.
+pub(super) fn assert_sound(state: &State) {
+    let broken: Vec<_> = Wound::check(state).into_iter().filter(|c| !c.ok).collect();
+    assert!(broken.is_empty(), "{broken:#?}");
+}
+
+/// A small generator of pseudorandom numbers (splitmix64).
+pub(super) struct Random(pub(super) u64);
+
+impl Random {
+    pub(super) fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    pub(super) fn below(&mut self, n: usize) -> usize {
+        (self.next() % n as u64) as usize
+    }
+
+    /// In [0, 1).
+    pub(super) fn unit(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
