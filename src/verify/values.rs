@@ -155,7 +155,7 @@ impl Values {
     fn deflate(&self) -> Vec<u8> {
         let plain = bincode::serde::encode_to_vec(&self.0, bincode::config::standard());
         let plain = plain.expect("lists, numbers and texts always have a form");
-        miniz_oxide::deflate::compress_to_vec_zlib(&plain, 9)
+        miniz_oxide::deflate::compress_to_vec_zlib(&plain, 6)
     }
 
     /// Reads a file. An error says what is wrong with it.
