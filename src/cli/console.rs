@@ -4,7 +4,7 @@
 //! unless `NO_COLOR`, `CLICOLOR_FORCE` or `TERM` say otherwise; styles cross as ANSI only where it is wanted.
 
 use std::fmt::Display;
-use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::io::{self, BufWriter, ErrorKind, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
 use anstream::{AutoStream, ColorChoice};
@@ -24,13 +24,13 @@ impl<'a> Console<'a> {
         let colour = [AutoStream::choice(&out), AutoStream::choice(&err)].map(|c| c != ColorChoice::Never);
         let terminal = err.is_terminal();
         Self {
-            out: Channel::new(Box::new(out.lock()), colour[0], false),
-            err: Channel::new(Box::new(err.lock()), colour[1], terminal),
+            out: Channel::new(Box::new(BufWriter::new(out)), colour[0], false),
+            err: Channel::new(Box::new(err), colour[1], terminal),
         }
     }
 
     /// Two writers, without colour.
-    pub fn plain(out: &'a mut dyn Write, err: &'a mut dyn Write) -> Self {
+    pub fn plain(out: &'a mut (dyn Write + Send), err: &'a mut (dyn Write + Send)) -> Self {
         Self {
             out: Channel::new(Box::new(out), false, false),
             err: Channel::new(Box::new(err), false, false),
@@ -40,7 +40,7 @@ impl<'a> Console<'a> {
 
 /// One stream.
 pub(super) struct Channel<'a> {
-    to: Box<dyn Write + 'a>,
+    to: Box<dyn Write + Send + 'a>,
     /// Its reader has gone away.
     gone: bool,
     colour: bool,
@@ -59,7 +59,7 @@ const BETWEEN_DRAWINGS: Duration = Duration::from_millis(100);
 const ERASE_LINE: &str = "\r\x1b[2K";
 
 impl<'a> Channel<'a> {
-    fn new(to: Box<dyn Write + 'a>, colour: bool, terminal: bool) -> Self {
+    fn new(to: Box<dyn Write + Send + 'a>, colour: bool, terminal: bool) -> Self {
         let progress = terminal.then(|| Line { since: Instant::now(), drawn: None });
         Self { to, gone: false, colour, progress }
     }
@@ -116,11 +116,6 @@ impl<'a> Channel<'a> {
             Some(_) => self.to.write_all(ERASE_LINE.as_bytes()),
             None => Ok(()),
         }
-    }
-
-    /// Writes out what is left.
-    pub(super) fn finish(&mut self) -> io::Result<()> {
-        self.flush()
     }
 
     /// A broken pipe counts as written.

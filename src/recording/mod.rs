@@ -10,6 +10,7 @@
 //! This room opens no file: it reads slices and writes to writers that are passed in.
 
 mod any;
+mod diff;
 mod error;
 mod format;
 mod frame;
@@ -18,6 +19,7 @@ mod rules;
 mod scene_ref;
 mod script;
 mod script_text;
+mod simplify;
 mod summary;
 #[cfg(test)]
 mod tests;
@@ -25,8 +27,9 @@ mod tests;
 use crate::engine::Event;
 
 pub use any::{AnyRecording, ENGINES, Recorded, Visit};
+pub use diff::{InputDifference, first_difference};
 pub use error::{Cause, ReadError, ScriptError, WriteError};
-pub use format::{is_binary, read, to_bytes, write};
+pub use format::{is_script, read, to_bytes, write};
 pub use frame::VERSION;
 pub use reduce::{Progress, reduce};
 pub use scene_ref::{InlineMesh, SceneRef};

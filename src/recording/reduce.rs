@@ -5,10 +5,12 @@
 //! need, they need from before, so that a part alone fails seldom), and after n has reached the number of events, a pass is repeated
 //! until it removes nothing.
 //!
-//! Promised: the result fails, is a part of the recording in its order with its keys, and no single event can be left out of it
+//! Then the numbers that are left are made as round as they can be (`simplify`).
+//!
+//! Promised: the result fails, its events are some of the recording's in their order and with their keys, and no single one can be left out
 //! (provided that the same events always fail or always do not). Not promised: the smallest of all such parts.
 
-use super::{Keyed, Recording};
+use super::{Keyed, Recording, simplify};
 use crate::engine::Event;
 
 /// How far the reducer is.
@@ -31,10 +33,10 @@ pub fn reduce<E: Event>(
     if !search.fails(&events) {
         return recording.clone();
     }
-    let mut size = events.len().div_ceil(2).max(1);
-    while !search.pass(&mut events, size) || size > 1 {
-        size = size.div_ceil(2).min(events.len()).max(1);
-    }
+    let half = events.len().div_ceil(2);
+    search.leave_out(&mut events, half);
+    search.round(&mut events);
+    search.leave_out(&mut events, 1);
     recording.with_events(events)
 }
 
@@ -46,6 +48,30 @@ struct Search<'a, E: Event, F, P> {
 }
 
 impl<E: Event, F: FnMut(&Recording<E>) -> bool, P: FnMut(Progress)> Search<'_, E, F, P> {
+    /// Leaves out runs of at most `size` events, then of half as many, until no single one can be left out.
+    fn leave_out(&mut self, events: &mut Vec<Keyed<E>>, mut size: usize) {
+        size = size.max(1);
+        while !self.pass(events, size) || size > 1 {
+            size = size.div_ceil(2).min(events.len()).max(1);
+        }
+    }
+
+    /// Makes each number as round as it can be.
+    fn round(&mut self, events: &mut [Keyed<E>]) {
+        for at in 0..events.len() {
+            // A number that became whole is no longer counted: from the last to the first the others keep their places.
+            for place in (0..simplify::numbers(&events[at].event)).rev() {
+                let before = events[at].event.clone();
+                let fails = |rounder: &E| {
+                    events[at].event = rounder.clone();
+                    self.fails(events)
+                };
+                let kept = simplify::rounder(&before, place).find(fails);
+                events[at].event = kept.unwrap_or(before);
+            }
+        }
+    }
+
     /// Tries to leave out each run of `size` events, the last first; returns true when none could be.
     fn pass(&mut self, events: &mut Vec<Keyed<E>>, size: usize) -> bool {
         let (mut end, before) = (events.len(), events.len());

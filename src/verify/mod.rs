@@ -9,6 +9,7 @@
 
 mod bless;
 mod compare;
+mod diff;
 mod facts;
 mod golden;
 mod home;
@@ -22,6 +23,7 @@ mod tests;
 
 pub use bless::{BlessOptions, BlessReport, Blessed, Change, bless};
 pub use compare::Divergence;
+pub use diff::{Diff, Side, diff};
 pub use one::failure;
 pub use report::{RecordingReport, Verdict, VerifyReport};
 pub use suite::{Progress, VerifyOptions, verify};

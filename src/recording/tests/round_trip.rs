@@ -10,7 +10,8 @@ use crate::engine::Event;
 use crate::engine::wound::{CameraChange, Mode, Pick, Value, WoundEvent};
 use crate::mesh::{EdgeId, FaceId, NodeId};
 use crate::recording::{
-    AnyRecording, InlineMesh, Keyed, Recording, SceneRef, Script, WriteError, read, to_bytes,
+    AnyRecording, InlineMesh, Keyed, Recording, SceneRef, Script, WriteError, first_difference, read,
+    to_bytes,
 };
 
 #[test]
@@ -136,4 +137,19 @@ proptest! {
         prop_assert!(read(&bytes).is_err());
         prop_assert!(Script::parse(&bytes).is_err());
     }
+}
+
+#[test]
+fn the_first_difference_is_named() {
+    let difference = |text: &str| first_difference(&pack(EVERYTHING), &pack(text)).map(|d| d.to_string());
+    assert_eq!(difference(EVERYTHING), None);
+    assert_eq!(difference(&EVERYTHING.replace("7,", "8,")).unwrap(), "seed: 7 against 8");
+    let moved = difference(&EVERYTHING.replace("300.25", "300.5")).unwrap();
+    assert_eq!(
+        moved,
+        r#"events[2]: {"click":[640.5,300.25]} (key 2) against {"click":[640.5,300.5]} (key 2)"#
+    );
+    let shorter = EVERYTHING.replace(",\n    {\"checkpoint\": \"after-first-cut\"}", "");
+    let shorter = difference(&shorter).unwrap();
+    assert!(shorter.starts_with("events[9]: ") && shorter.ends_with(" against nothing"), "{shorter}");
 }
