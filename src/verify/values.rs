@@ -305,7 +305,7 @@ mod tests {
             Values::read(&Values::file(&deltas, "d1"), "d1")
         };
         let spoilers: [fn(&mut Buffer); 3] =
-            [|b| drop(b.data.pop()), |b| b.ids.swap(2, 3), |b| b.width = u32::MAX];
+            [|b| b.data.truncate(3), |b| b.ids.swap(2, 3), |b| b.width = u32::MAX];
         for how in spoilers {
             assert!(spoil(how).is_err_and(|e| e.starts_with("payload")));
         }
