@@ -3,6 +3,8 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+mod runs;
+
 use super::*;
 
 /// Runs the program; its status, answer and complaints.
