@@ -30,6 +30,8 @@ pub(super) enum Command {
     Reduce(Reduce),
     Diff(Diff),
     Check(Check),
+    /// List the scenes that are made by code
+    Scenes,
     /// Say what the program and the machine are
     Doctor,
     Schema(Schema),

@@ -21,6 +21,7 @@ mod pack;
 mod place;
 mod reduce;
 mod replay;
+mod scenes;
 mod schema;
 mod show;
 mod table;
@@ -81,6 +82,7 @@ fn dispatch(command: Command, console: &mut Console<'_>) -> Done {
         Command::Reduce(typed) => reduce::run(&typed, console),
         Command::Diff(typed) => diff::run(&typed, console),
         Command::Check(typed) => check::run(&typed, console),
+        Command::Scenes => scenes::run(console),
         Command::Doctor => doctor::run(console),
         Command::Schema(typed) => schema::run(&typed, console),
         Command::Completions(typed) => completions::run(&typed, console),

@@ -110,6 +110,11 @@ fn a_mesh_is_told_about() {
 }
 
 #[test]
+fn the_scenes_are_listed() {
+    assert!(answer(&["scenes"]).contains("builtin:bust"));
+}
+
+#[test]
 fn the_doctor_answers() {
     assert!(answer(&["doctor"]).contains(env!("CARGO_PKG_VERSION")));
 }

@@ -21,6 +21,7 @@ impl Bvh {
             parents: Vec::with_capacity(2 * room),
             leaves: Vec::with_capacity(room),
             homes: Vec::with_capacity(count + count / 32 + 64),
+            built: 0,
         };
         tree.homes.resize(count, 0);
         tree.nodes.push(Node { bounds: Aabb::EMPTY, link: LEAF });
@@ -29,6 +30,7 @@ impl Bvh {
         while let Some(range) = ranges.pop() {
             tree.place(range, &mut items, &mut ranges);
         }
+        tree.built = tree.nodes.len();
         tree
     }
 

@@ -108,6 +108,8 @@ pub struct Bvh {
     leaves: Vec<Leaf>,
     /// The node of each item's leaf.
     homes: Vec<u32>,
+    /// How many nodes the build made: those after them come from leaves that overflowed.
+    built: usize,
 }
 
 /// A ray that a query walks along; `t` is measured in lengths of `direction`.
@@ -243,6 +245,31 @@ impl Bvh {
                 leaf.count -= 1;
             }
             self.refit_below(home, len, bounds);
+            self.join_latest();
+        }
+    }
+
+    /// Takes splits of leaves back, newest first, as long as what is left in both halves fits into one: so undoing and redoing an edit
+    /// does not wear the tree out.
+    fn join_latest(&mut self) {
+        while self.nodes.len() > self.built {
+            let children = self.nodes.len() - 2;
+            let [low, high] = [children, children + 1].map(|c| self.nodes[c].link);
+            if low & LEAF == 0 || high & LEAF == 0 || (high & !LEAF) as usize != self.leaves.len() - 1 {
+                return;
+            }
+            let [a, b] = [low, high].map(|l| self.leaves[(l & !LEAF) as usize]);
+            if (a.count + b.count) as usize > LEAF_CAPACITY {
+                return;
+            }
+            let items: Vec<u32> = a.items().iter().chain(b.items()).copied().collect();
+            let parent = self.parents[children];
+            items.iter().for_each(|&i| self.homes[i as usize] = parent);
+            self.leaves[(low & !LEAF) as usize] = leaf_of(&items);
+            self.nodes[parent as usize].link = low;
+            self.leaves.pop();
+            self.nodes.truncate(children);
+            self.parents.truncate(children);
         }
     }
 

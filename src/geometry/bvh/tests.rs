@@ -52,6 +52,21 @@ fn a_query_finds_what_a_look_at_everything_finds_after_every_kind_of_edit() {
 }
 
 #[test]
+fn adding_and_taking_away_again_does_not_wear_the_tree_out() {
+    let mut tree = Bvh::build(500, &scattered);
+    let (nodes, bytes) = (tree.nodes.len(), tree.bytes());
+    for _ in 0..100 {
+        (500..700).for_each(|i| tree.insert(i % 50, &scattered));
+        tree.truncate(500, &scattered);
+        assert_eq!(tree.nodes.len(), nodes);
+    }
+    assert!(tree.bytes() <= 2 * bytes);
+    for query in queries() {
+        assert_eq!(found(&tree, &query, scattered), expected(500, &query, scattered));
+    }
+}
+
+#[test]
 fn a_ray_visits_every_box_that_it_enters() {
     let tree = Bvh::build(1000, &scattered);
     for k in 0..50u32 {

@@ -23,10 +23,10 @@ use crate::report::Rejection;
 
 /// How much of the tissue below a node its gutter may take.
 const SHARE_OF_TISSUE: f64 = 0.5;
-/// How often a depth is halved to keep the gutter from crossing something.
-const HALVINGS: usize = 40;
+/// How often a depth is reduced to keep the gutter from crossing something.
+const ATTEMPTS: usize = 24;
 /// After how many of them the opening narrows too.
-const PATIENCE: usize = 6;
+const PATIENCE: usize = 5;
 
 /// The direction in which the gutter goes down from each opened node: in the cutting plane, unit length.
 pub fn inward(place: &Place<'_>, line: &Line, range: &RangeInclusive<usize>) -> Vec<DVec3> {
@@ -217,35 +217,37 @@ fn keep_clear(
     let link_of: FxHashMap<FaceId, usize> =
         links.iter().enumerate().flat_map(|(i, l)| l.iter().map(move |&f| (f, i))).collect();
     let mut halved = vec![0usize; carved.opened.len()];
-    let mut suspects: Vec<usize> = (0..links.len()).collect();
+    let all: Vec<usize> = (0..links.len()).collect();
+    let mut suspects = all.clone();
+    let mut narrowed = false;
     while !suspects.is_empty() {
-        let mut shallow: Vec<usize> = Vec::new();
-        for &i in &suspects {
-            for other in crossed(place, &links[i]) {
-                shallow.extend([i, i + 1]);
-                shallow.extend(link_of.get(&other).into_iter().flat_map(|&j| [j, j + 1]));
-            }
+        let shallow = crossing_nodes(place, carved, links, &link_of, &suspects);
+        if shallow.is_empty() && std::mem::take(&mut narrowed) {
+            // What an opening that narrowed let go may have come to lie elsewhere.
+            suspects.clone_from(&all);
+            continue;
         }
-        shallow.sort_unstable();
-        shallow.dedup();
-        shallow.retain(|&i| carved.opened[i].left != carved.opened[i].right);
         for &i in &shallow {
             halved[i] += 1;
             let o = &mut carved.opened[i];
-            o.depth *= 0.5;
-            if halved[i] > HALVINGS || o.depth < least(place.largest) {
+            o.depth *= if halved[i] > PATIENCE { 0.25 } else { 0.5 };
+            if halved[i] > ATTEMPTS || o.depth < least(place.largest) {
                 let detail = format!("however shallow, the gutter at {} crosses something", o.left);
                 return Err(Rejection::new("no-tissue", detail));
             }
             place.mesh.set_position(o.bottom, o.at + inward[i] * o.depth);
         }
-        suspects = shallow.iter().flat_map(|&i| [i - 1, i]).collect();
-        suspects.dedup();
+        let mut changed = shallow.clone();
         let stuck: Vec<usize> = shallow.into_iter().filter(|&i| halved[i] > PATIENCE).collect();
         if !stuck.is_empty() {
+            let before: Vec<f64> = carved.opened.iter().map(|o| o.half_width).collect();
             opening.narrow(place, carved, &stuck)?;
-            suspects = (0..links.len()).collect();
+            changed.extend((0..before.len()).filter(|&i| before[i] != carved.opened[i].half_width));
+            narrowed = true;
         }
+        suspects = changed.iter().flat_map(|&i| [i - 1, i]).collect();
+        suspects.sort_unstable();
+        suspects.dedup();
         for &l in &suspects {
             links[l].iter().for_each(|f| place.bvh.update(f.0, &|f| face_box(place.mesh, f)));
         }
@@ -254,18 +256,75 @@ fn keep_clear(
     Ok(())
 }
 
+/// The inner nodes of the links among `suspects` that cross something, and of the links that they cross.
+fn crossing_nodes(
+    place: &Place<'_>,
+    carved: &Carved,
+    links: &[Vec<FaceId>],
+    link_of: &FxHashMap<FaceId, usize>,
+    suspects: &[usize],
+) -> Vec<usize> {
+    let mut nodes = Vec::new();
+    for &i in suspects {
+        for other in crossed(place, &links[i]) {
+            nodes.extend([i, i + 1]);
+            nodes.extend(link_of.get(&other).into_iter().flat_map(|&j| [j, j + 1]));
+        }
+    }
+    nodes.sort_unstable();
+    nodes.dedup();
+    nodes.retain(|&i| carved.opened[i].left != carved.opened[i].right);
+    nodes
+}
+
+/// A face of the gutter, made ready for being tested against many.
+struct Wall {
+    corners: Corners,
+    bounds: Aabb,
+    normal: DVec3,
+    /// Farther from the wall's plane than this is off it, whatever was rounded.
+    slack: f64,
+}
+
+impl Wall {
+    fn new(place: &Place<'_>, face: FaceId) -> Self {
+        let corners = corners(place.mesh, face);
+        let [a, b, c] = corners.at;
+        let normal = (b - a).cross(c - a);
+        let slack = 1e-13 * place.largest * (b - a).abs().element_sum() * (c - a).abs().element_sum();
+        Self { corners, bounds: Aabb::around(&corners.at), normal, slack }
+    }
+
+    /// Whether the wall crosses a face; most are told apart by a few products.
+    fn crosses(&self, other: &Corners, bounds: &Aabb) -> bool {
+        self.bounds.overlaps(bounds) && !self.has_on_one_side(other) && cross(&self.corners, other)
+    }
+
+    fn has_on_one_side(&self, other: &Corners) -> bool {
+        let (mut above, mut below) = (true, true);
+        for i in (0..3).filter(|&i| !self.corners.ids.contains(&other.ids[i])) {
+            let height = self.normal.dot(other.at[i] - self.corners.at[0]);
+            above &= height > self.slack;
+            below &= height < -self.slack;
+        }
+        above || below
+    }
+}
+
+fn corners(mesh: &Mesh, face: FaceId) -> Corners {
+    Corners { ids: mesh.face(face).nodes.map(|n| n.0), at: mesh.triangle(face) }
+}
+
 /// The faces that a link of the gutter crosses.
 fn crossed(place: &Place<'_>, link: &[FaceId]) -> Vec<FaceId> {
-    let mesh = &*place.mesh;
-    let corners = |f: FaceId| Corners { ids: mesh.face(f).nodes.map(|n| n.0), at: mesh.triangle(f) };
-    let walls: Vec<(Corners, Aabb)> = link.iter().map(|&f| (corners(f), face_box(mesh, f.0))).collect();
-    let points: Vec<DVec3> = walls.iter().flat_map(|w| w.0.at).collect();
+    let walls: Vec<Wall> = link.iter().map(|&f| Wall::new(place, f)).collect();
+    let points: Vec<DVec3> = walls.iter().flat_map(|w| w.corners.at).collect();
     let mut found = Vec::new();
     place.bvh.overlapping(&Aabb::around(&points), |item| {
-        let bounds = face_box(mesh, item);
         let other = FaceId(item);
-        let near = walls.iter().filter(|w| w.1.overlaps(&bounds));
-        if !link.contains(&other) && near.into_iter().any(|w| cross(&w.0, &corners(other))) {
+        let there = corners(place.mesh, other);
+        let bounds = Aabb::around(&there.at);
+        if !link.contains(&other) && walls.iter().any(|w| w.crosses(&there, &bounds)) {
             found.push(other);
         }
         true
@@ -297,12 +356,11 @@ fn shade(mesh: &mut Mesh, carved: &Carved) {
 /// Whether a gutter face crosses any face of the mesh: the promise, for who wants to see it kept.
 pub fn crosses_something(place: (&Mesh, &crate::geometry::bvh::Bvh), face: FaceId) -> Option<FaceId> {
     let (mesh, bvh) = place;
-    let corners = |f: FaceId| Corners { ids: mesh.face(f).nodes.map(|n| n.0), at: mesh.triangle(f) };
-    let (mine, bounds) = (corners(face), face_box(mesh, face.0));
+    let (mine, bounds) = (corners(mesh, face), face_box(mesh, face.0));
     let mut found = None;
     bvh.overlapping(&bounds, |item| {
         let other = FaceId(item);
-        if other != face && face_box(mesh, item).overlaps(&bounds) && cross(&mine, &corners(other)) {
+        if other != face && face_box(mesh, item).overlaps(&bounds) && cross(&mine, &corners(mesh, other)) {
             found = Some(other);
         }
         found.is_none()

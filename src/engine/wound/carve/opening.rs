@@ -138,14 +138,14 @@ impl Opening {
         Ok(opening)
     }
 
-    /// Halves the opening at some nodes.
+    /// Narrows the opening to a quarter at some nodes.
     pub fn narrow(
         &mut self,
         place: &mut Place<'_>,
         carved: &mut Carved,
         nodes: &[usize],
     ) -> Result<(), Rejection> {
-        nodes.iter().for_each(|&i| self.share[i] *= 0.5);
+        nodes.iter().for_each(|&i| self.share[i] *= 0.25);
         self.settle(place, carved)
     }
 
