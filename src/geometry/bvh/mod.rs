@@ -213,9 +213,12 @@ impl Bvh {
             + (self.parents.capacity() + self.homes.capacity()) * size_of::<u32>()
     }
 
-    /// Refits the boxes above an item that moved.
-    pub fn update(&mut self, item: u32, bounds: &impl Fn(u32) -> Aabb) {
-        self.refit(self.homes[item as usize], bounds);
+    /// Refits the boxes above items that moved, each leaf once.
+    pub fn update(&mut self, items: impl IntoIterator<Item = u32>, bounds: &impl Fn(u32) -> Aabb) {
+        let mut homes: Vec<u32> = items.into_iter().map(|i| self.homes[i as usize]).collect();
+        homes.sort_unstable();
+        homes.dedup();
+        homes.into_iter().for_each(|home| self.refit(home, bounds));
     }
 
     /// Appends the item `len()` to the leaf of `near`, an item close to it.
@@ -231,7 +234,19 @@ impl Bvh {
         leaf.items[leaf.count as usize] = item;
         leaf.count += 1;
         self.homes.push(home);
-        self.refit(home, bounds);
+        self.widen(home, bounds(item));
+    }
+
+    /// Makes the boxes from a node upwards large enough for one more.
+    fn widen(&mut self, mut at: u32, by: Aabb) {
+        while at != NO_PARENT {
+            let wider = self.nodes[at as usize].bounds.union(&by);
+            if wider == self.nodes[at as usize].bounds {
+                return;
+            }
+            self.nodes[at as usize].bounds = wider;
+            at = self.parents[at as usize];
+        }
     }
 
     /// Takes the items from `len` on away.

@@ -248,9 +248,8 @@ fn keep_clear(
         suspects = changed.iter().flat_map(|&i| [i - 1, i]).collect();
         suspects.sort_unstable();
         suspects.dedup();
-        for &l in &suspects {
-            links[l].iter().for_each(|f| place.bvh.update(f.0, &|f| face_box(place.mesh, f)));
-        }
+        let touched = suspects.iter().flat_map(|&l| links[l].iter().map(|f| f.0));
+        place.bvh.update(touched, &|f| face_box(place.mesh, f));
     }
     carved.shallowed = carved.opened.iter().filter(|o| o.left != o.right && o.depth < carved.depth).count();
     Ok(())
@@ -266,7 +265,7 @@ fn crossing_nodes(
 ) -> Vec<usize> {
     let mut nodes = Vec::new();
     for &i in suspects {
-        for other in crossed(place, &links[i]) {
+        for other in crossed(place, carved, i, &links[i]) {
             nodes.extend([i, i + 1]);
             nodes.extend(link_of.get(&other).into_iter().flat_map(|&j| [j, j + 1]));
         }
@@ -315,16 +314,57 @@ fn corners(mesh: &Mesh, face: FaceId) -> Corners {
     Corners { ids: mesh.face(face).nodes.map(|n| n.0), at: mesh.triangle(face) }
 }
 
+/// One end of a link of the gutter: the plane through the node's spoke, from the rims to the bottom, across the line.
+///
+/// The rims move along û alone, so they lie in it too, and a link is held between the planes of its two ends. What lies beyond one
+/// of them crosses nothing of the link: this tells nearly all neighbours apart, the gutter's other links first of all.
+struct Spoke {
+    ids: [u32; 3],
+    at: DVec3,
+    /// Away from the link.
+    outward: DVec3,
+    slack: f64,
+}
+
+impl Spoke {
+    /// The plane at the end `here` of a link whose other end is `there`; `None` where the link reaches through it.
+    fn new(place: &Place<'_>, here: &Opened, there: &Opened) -> Option<Self> {
+        let bottom = place.mesh.position(here.bottom);
+        let outward = place.plane.unit().cross(bottom - here.at);
+        let across = here.at - there.at;
+        let outward = if outward.dot(across) < 0.0 { -outward } else { outward };
+        let slack = 1e-13 * place.largest * outward.abs().element_sum();
+        let spoke =
+            Self { ids: [here.left, here.right, here.bottom].map(|n| n.0), at: here.at, outward, slack };
+        let corners = [there.left, there.right, there.bottom].map(|n| place.mesh.position(n));
+        corners.iter().all(|&p| spoke.height(p) < -slack).then_some(spoke)
+    }
+
+    fn height(&self, point: DVec3) -> f64 {
+        self.outward.dot(point - self.at)
+    }
+
+    /// Whether a face lies beyond the plane, but for corners that it shares with the spoke.
+    fn is_before(&self, other: &Corners) -> bool {
+        (0..3).all(|i| self.ids.contains(&other.ids[i]) || self.height(other.at[i]) > self.slack)
+    }
+}
+
 /// The faces that a link of the gutter crosses.
-fn crossed(place: &Place<'_>, link: &[FaceId]) -> Vec<FaceId> {
+fn crossed(place: &Place<'_>, carved: &Carved, i: usize, link: &[FaceId]) -> Vec<FaceId> {
     let walls: Vec<Wall> = link.iter().map(|&f| Wall::new(place, f)).collect();
+    let (start, end) = (&carved.opened[i], &carved.opened[i + 1]);
+    let spokes = [Spoke::new(place, start, end), Spoke::new(place, end, start)];
     let points: Vec<DVec3> = walls.iter().flat_map(|w| w.corners.at).collect();
     let mut found = Vec::new();
     place.bvh.overlapping(&Aabb::around(&points), |item| {
         let other = FaceId(item);
         let there = corners(place.mesh, other);
+        if link.contains(&other) || spokes.iter().flatten().any(|s| s.is_before(&there)) {
+            return true;
+        }
         let bounds = Aabb::around(&there.at);
-        if !link.contains(&other) && walls.iter().any(|w| w.crosses(&there, &bounds)) {
+        if walls.iter().any(|w| w.crosses(&there, &bounds)) {
             found.push(other);
         }
         true
