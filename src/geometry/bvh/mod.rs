@@ -144,11 +144,10 @@ impl Ray {
 }
 
 impl Bvh {
-    /// Visits the items of every leaf whose box a ray enters, nearest boxes first. The visitor returns the parameter beyond which it
-    /// is no longer interested.
-    pub fn along(&self, ray: Ray, mut visit: impl FnMut(u32) -> f64) {
+    /// Visits the items of every leaf whose box a ray enters before `limit`, nearest boxes first. The visitor returns the parameter
+    /// beyond which it is no longer interested.
+    pub fn along(&self, ray: Ray, mut limit: f64, mut visit: impl FnMut(u32) -> f64) {
         let inverse = ray.direction.recip();
-        let mut limit = f64::INFINITY;
         let mut stack: Vec<(u32, f64)> = Vec::with_capacity(64);
         if let Some(t) = ray.enters(inverse, &self.nodes[ROOT as usize].bounds, limit) {
             stack.push((ROOT, t));
@@ -277,10 +276,10 @@ impl Bvh {
             if (a.count + b.count) as usize > LEAF_CAPACITY {
                 return;
             }
-            let items: Vec<u32> = a.items().iter().chain(b.items()).copied().collect();
+            let joined = leaf_of(a.items().iter().chain(b.items()).copied());
             let parent = self.parents[children];
-            items.iter().for_each(|&i| self.homes[i as usize] = parent);
-            self.leaves[(low & !LEAF) as usize] = leaf_of(&items);
+            joined.items().iter().for_each(|&i| self.homes[i as usize] = parent);
+            self.leaves[(low & !LEAF) as usize] = joined;
             self.nodes[parent as usize].link = low;
             self.leaves.pop();
             self.nodes.truncate(children);
@@ -315,32 +314,35 @@ impl Bvh {
     /// Makes a full leaf an inner node over two halves, parted along the axis in which its items spread most.
     fn split(&mut self, home: u32, bounds: &impl Fn(u32) -> Aabb) {
         let at = (self.nodes[home as usize].link & !LEAF) as usize;
-        let mut items = self.leaves[at].items;
-        let boxes = items.map(bounds);
+        let mut items = self.leaves[at].items.map(|i| (i, bounds(i)));
         let spread = |axis: usize| {
-            let centers = boxes.iter().map(|b| b.center2(axis));
+            let centers = items.iter().map(|i| i.1.center2(axis));
             let (lo, hi) = centers.fold((f32::INFINITY, f32::NEG_INFINITY), |(l, h), c| (l.min(c), h.max(c)));
             hi - lo
         };
         let axis = (0..3).fold(0, |best, k| if spread(k) > spread(best) { k } else { best });
-        items.sort_by(|&a, &b| bounds(a).center2(axis).total_cmp(&bounds(b).center2(axis)).then(a.cmp(&b)));
+        items.sort_unstable_by(|a, b| a.1.center2(axis).total_cmp(&b.1.center2(axis)).then(a.0.cmp(&b.0)));
         let (low, high) = items.split_at(LEAF_CAPACITY / 2);
-        self.leaves[at] = leaf_of(low);
-        self.leaves.push(leaf_of(high));
+        self.leaves[at] = leaf_of(low.iter().map(|i| i.0));
+        self.leaves.push(leaf_of(high.iter().map(|i| i.0)));
         let children = self.nodes.len() as u32;
         for (side, (half, leaf)) in [(low, at), (high, self.leaves.len() - 1)].into_iter().enumerate() {
-            let bounds = half.iter().fold(Aabb::EMPTY, |b, &i| b.union(&bounds(i)));
+            let bounds = half.iter().fold(Aabb::EMPTY, |b, i| b.union(&i.1));
             self.nodes.push(Node { bounds, link: leaf as u32 | LEAF });
             self.parents.push(home);
-            half.iter().for_each(|&i| self.homes[i as usize] = children + side as u32);
+            half.iter().for_each(|i| self.homes[i.0 as usize] = children + side as u32);
         }
         self.nodes[home as usize].link = children;
     }
 }
 
-fn leaf_of(items: &[u32]) -> Leaf {
-    let mut leaf = Leaf { items: [0; LEAF_CAPACITY], count: items.len() as u32 };
-    leaf.items[..items.len()].copy_from_slice(items);
+/// A leaf of at most [`LEAF_CAPACITY`] items.
+fn leaf_of(items: impl Iterator<Item = u32>) -> Leaf {
+    let mut leaf = Leaf { items: [0; LEAF_CAPACITY], count: 0 };
+    for (slot, item) in leaf.items.iter_mut().zip(items) {
+        *slot = item;
+        leaf.count += 1;
+    }
     leaf
 }
 

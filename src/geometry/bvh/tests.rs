@@ -74,7 +74,7 @@ fn a_ray_visits_every_box_that_it_enters() {
         let origin = DVec3::new(-50.0, 400.0 - k as f64 * 9.0, 77.0);
         let ray = Ray { origin, direction: DVec3::from(target) - origin };
         let mut seen = Vec::new();
-        tree.along(ray, |i| {
+        tree.along(ray, f64::INFINITY, |i| {
             seen.push(i);
             f64::INFINITY
         });
@@ -88,7 +88,7 @@ fn a_ray_visits_every_box_that_it_enters() {
 fn a_ray_along_an_axis_through_a_face_of_a_box_enters_it() {
     let tree = Bvh::build(1, &|_| Aabb::around(&[DVec3::ZERO, DVec3::ONE]));
     let mut seen = 0;
-    tree.along(Ray { origin: DVec3::new(1.0, 0.5, -3.0), direction: DVec3::Z }, |_| {
+    tree.along(Ray { origin: DVec3::new(1.0, 0.5, -3.0), direction: DVec3::Z }, f64::INFINITY, |_| {
         seen += 1;
         f64::INFINITY
     });

@@ -80,11 +80,11 @@ pub fn dig(
     carved.opened[last].depth = 0.0;
     let links = build(place.mesh, carved, slit);
     carved.gutter = links.iter().flatten().copied().collect();
+    keep_clear(place, carved, opening, inward, &links)?;
     for (i, link) in links.iter().enumerate() {
         let beside = slit.right_faces[i].0;
         link.iter().for_each(|_| place.bvh.insert(beside, &|f| face_box(place.mesh, f)));
     }
-    keep_clear(place, carved, opening, inward, &links)?;
     shade(place.mesh, carved);
     Ok(())
 }
@@ -107,7 +107,7 @@ fn bound_depths(place: &Place<'_>, carved: &mut Carved, inward: &[DVec3]) -> Res
 /// How far it is to the next face below a node, not counting those that meet there; at least `enough` is not told apart.
 fn thickness(place: &Place<'_>, o: &Opened, direction: DVec3, enough: f64) -> f64 {
     let mut nearest = enough;
-    place.bvh.along(Ray { origin: o.at, direction }, |item| {
+    place.bvh.along(Ray { origin: o.at, direction }, enough, |item| {
         let face = place.mesh.face(FaceId(item));
         if face.corner(o.left).is_none() && face.corner(o.right).is_none() {
             let t = distance_along(o.at, direction, place.mesh.triangle(FaceId(item)));
@@ -214,14 +214,12 @@ fn keep_clear(
     inward: &[DVec3],
     links: &[Vec<FaceId>],
 ) -> Result<(), Rejection> {
-    let link_of: FxHashMap<FaceId, usize> =
-        links.iter().enumerate().flat_map(|(i, l)| l.iter().map(move |&f| (f, i))).collect();
     let mut halved = vec![0usize; carved.opened.len()];
     let all: Vec<usize> = (0..links.len()).collect();
     let mut suspects = all.clone();
     let mut narrowed = false;
     while !suspects.is_empty() {
-        let shallow = crossing_nodes(place, carved, links, &link_of, &suspects);
+        let shallow = crossing_nodes(place, carved, links, &suspects);
         if shallow.is_empty() && std::mem::take(&mut narrowed) {
             // What an opening that narrowed let go may have come to lie elsewhere.
             suspects.clone_from(&all);
@@ -248,26 +246,19 @@ fn keep_clear(
         suspects = changed.iter().flat_map(|&i| [i - 1, i]).collect();
         suspects.sort_unstable();
         suspects.dedup();
-        let touched = suspects.iter().flat_map(|&l| links[l].iter().map(|f| f.0));
-        place.bvh.update(touched, &|f| face_box(place.mesh, f));
     }
     carved.shallowed = carved.opened.iter().filter(|o| o.left != o.right && o.depth < carved.depth).count();
     Ok(())
 }
 
 /// The inner nodes of the links among `suspects` that cross something, and of the links that they cross.
-fn crossing_nodes(
-    place: &Place<'_>,
-    carved: &Carved,
-    links: &[Vec<FaceId>],
-    link_of: &FxHashMap<FaceId, usize>,
-    suspects: &[usize],
-) -> Vec<usize> {
+fn crossing_nodes(place: &Place<'_>, carved: &Carved, links: &[Vec<FaceId>], suspects: &[usize]) -> Vec<usize> {
     let mut nodes = Vec::new();
     for &i in suspects {
-        for other in crossed(place, carved, i, &links[i]) {
-            nodes.extend([i, i + 1]);
-            nodes.extend(link_of.get(&other).into_iter().flat_map(|&j| [j, j + 1]));
+        let link = Link::new(place, carved, links, i);
+        let rivals = link.crossed_links(place, carved, links);
+        if !rivals.is_empty() || link.crosses_surface(place) {
+            nodes.extend(std::iter::once(i).chain(rivals).flat_map(|j| [j, j + 1]));
         }
     }
     nodes.sort_unstable();
@@ -348,28 +339,62 @@ impl Spoke {
     fn is_before(&self, other: &Corners) -> bool {
         (0..3).all(|i| self.ids.contains(&other.ids[i]) || self.height(other.at[i]) > self.slack)
     }
+
+    /// Whether a spoke of the gutter lies beyond the plane.
+    fn is_before_spoke(&self, place: &Place<'_>, other: &Opened) -> bool {
+        self.height(other.at) > self.slack && self.height(place.mesh.position(other.bottom)) > self.slack
+    }
 }
 
-/// The faces that a link of the gutter crosses.
-fn crossed(place: &Place<'_>, carved: &Carved, i: usize, link: &[FaceId]) -> Vec<FaceId> {
-    let walls: Vec<Wall> = link.iter().map(|&f| Wall::new(place, f)).collect();
-    let (start, end) = (&carved.opened[i], &carved.opened[i + 1]);
-    let spokes = [Spoke::new(place, start, end), Spoke::new(place, end, start)];
-    let points: Vec<DVec3> = walls.iter().flat_map(|w| w.corners.at).collect();
-    let mut found = Vec::new();
-    place.bvh.overlapping(&Aabb::around(&points), |item| {
-        let other = FaceId(item);
-        let there = corners(place.mesh, other);
-        if link.contains(&other) || spokes.iter().flatten().any(|s| s.is_before(&there)) {
-            return true;
+/// A link of the gutter, made ready for being tested against many faces.
+struct Link {
+    index: usize,
+    walls: Vec<Wall>,
+    /// At its start and at its end.
+    spokes: [Option<Spoke>; 2],
+}
+
+impl Link {
+    fn new(place: &Place<'_>, carved: &Carved, links: &[Vec<FaceId>], index: usize) -> Self {
+        let (start, end) = (&carved.opened[index], &carved.opened[index + 1]);
+        Self {
+            index,
+            walls: links[index].iter().map(|&f| Wall::new(place, f)).collect(),
+            spokes: [Spoke::new(place, start, end), Spoke::new(place, end, start)],
         }
-        let bounds = Aabb::around(&there.at);
-        if walls.iter().any(|w| w.crosses(&there, &bounds)) {
-            found.push(other);
+    }
+
+    fn crosses(&self, other: &Corners) -> bool {
+        if self.spokes.iter().flatten().any(|s| s.is_before(other)) {
+            return false;
         }
-        true
-    });
-    found
+        let bounds = Aabb::around(&other.at);
+        self.walls.iter().any(|w| w.crosses(other, &bounds))
+    }
+
+    /// Whether the link crosses a face of the surface around it.
+    fn crosses_surface(&self, place: &Place<'_>) -> bool {
+        let points: Vec<DVec3> = self.walls.iter().flat_map(|w| w.corners.at).collect();
+        let mut found = false;
+        place.bvh.overlapping(&Aabb::around(&points), |item| {
+            found = self.crosses(&corners(place.mesh, FaceId(item)));
+            !found
+        });
+        found
+    }
+
+    /// The other links that this one crosses.
+    fn crossed_links(&self, place: &Place<'_>, carved: &Carved, links: &[Vec<FaceId>]) -> Vec<usize> {
+        // A neighbour shares the spoke itself, so only its far end counts.
+        let apart = |j: usize| {
+            let (spoke, shared) = if j < self.index { (&self.spokes[0], self.index) } else { (&self.spokes[1], self.index + 1) };
+            let ends = [j, j + 1].into_iter().filter(|&k| k != shared);
+            let is_before = |s: &Spoke| ends.clone().all(|k| s.is_before_spoke(place, &carved.opened[k]));
+            spoke.as_ref().is_some_and(is_before)
+        };
+        let others = (0..links.len()).filter(|&j| j != self.index && !apart(j));
+        others.filter(|&j| links[j].iter().any(|&f| self.crosses(&corners(place.mesh, f)))).collect()
+    }
 }
 
 /// Normals and tangents of the gutter's own vertices, from its faces.
