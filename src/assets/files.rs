@@ -80,7 +80,7 @@ mod tests {
         assert_eq!(read_file(&at("b.txt")).expect("read"), b"again");
         let listed = list_files(folder.path()).expect("listed");
         assert_eq!(listed, [at("a/c.txt"), at("a/d/z.txt"), at("b.txt")], "and no part is left over");
-        assert_eq!(list_files(&at("nowhere")).expect("none"), [PathBuf::new(); 0]);
+        assert!(list_files(&at("nowhere")).expect("none").is_empty());
     }
 
     #[test]

@@ -2,8 +2,11 @@
 
 use std::ffi::OsString;
 use std::path::PathBuf;
+use std::str::FromStr;
 
 use clap::{Parser, Subcommand, ValueEnum, ValueHint};
+
+use crate::replay::Plant;
 
 const AFTER: &str = "Exit status: 0 when all is verified, 1 when something diverged or an invariant broke, 2 for bad input or when \
 it could not run.\n\nREC is a recording (.lancet) or its script (.json). `--json -` writes to standard output. NO_COLOR is honoured.";
@@ -18,10 +21,17 @@ pub(super) struct Args {
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
+    Verify(Verify),
+    Bless(Bless),
+    Replay(Replay),
     Pack(Pack),
     Unpack(Unpack),
     Info(Info),
+    Reduce(Reduce),
+    Diff(Diff),
     Check(Check),
+    /// List the scenes that are made by code
+    Scenes,
     /// Say what the program and the machine are
     Doctor,
     Schema(Schema),
@@ -39,6 +49,98 @@ pub(super) enum Target {
 impl From<OsString> for Target {
     fn from(typed: OsString) -> Self {
         if typed == "-" { Self::Stdout } else { Self::File(typed.into()) }
+    }
+}
+
+/// Replay recordings, look at every invariant, and compare them with their goldens
+#[derive(Debug, clap::Args)]
+pub(super) struct Verify {
+    /// Recordings, and folders of them
+    #[arg(value_name = "PATH", default_value = "recordings", value_hint = ValueHint::AnyPath)]
+    pub(super) paths: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(super) select: Select,
+    /// Leave out what comes after the first recording that fails
+    #[arg(long)]
+    pub(super) fail_fast: bool,
+    /// Digest and check the whole state after every event
+    #[arg(long)]
+    pub(super) paranoid: bool,
+    /// Plant a defect, to see that it is found: EVENT.STAGE:BUFFER:ELEMENT:ULPS, such as 4.MC:nodes:120:1
+    #[arg(long, value_name = "SPEC")]
+    pub(super) plant: Option<Plant>,
+    /// Write the report as JSON
+    #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
+    pub(super) json: Option<Target>,
+}
+
+/// Which recordings, and how many at a time.
+#[derive(Debug, clap::Args)]
+pub(super) struct Select {
+    /// Only recordings with this in their name
+    #[arg(long, value_name = "TEXT")]
+    pub(super) filter: Option<String>,
+    /// How many recordings at a time [default: as many as there are processors]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(super) jobs: Option<u16>,
+}
+
+/// Write what the runs are now as their goldens
+#[derive(Debug, clap::Args)]
+pub(super) struct Bless {
+    /// Recordings, and folders of them
+    #[arg(value_name = "PATH", default_value = "recordings", value_hint = ValueHint::AnyPath)]
+    pub(super) paths: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(super) select: Select,
+    /// Why the runs are right as they are; it is written into the goldens
+    #[arg(long, value_name = "TEXT")]
+    pub(super) reason: String,
+    /// Say what would change, and write nothing
+    #[arg(long)]
+    pub(super) dry_run: bool,
+}
+
+/// Replay one recording, stage by stage
+#[derive(Debug, clap::Args)]
+pub(super) struct Replay {
+    /// The recording
+    #[arg(value_name = "REC", value_hint = ValueHint::FilePath)]
+    pub(super) recording: PathBuf,
+    /// Stop after this event, or after a stage of it, such as 4.MC
+    #[arg(long, value_name = "EVENT[.STAGE]")]
+    pub(super) until: Option<Until>,
+    /// Replay so many times, and say the median times; runs that differ are an error
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) repeat: u32,
+    /// Digest and check the whole state after every event
+    #[arg(long)]
+    pub(super) paranoid: bool,
+    /// Write the report as JSON
+    #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
+    pub(super) json: Option<Target>,
+    /// Write the mesh, as it is in the end, as OBJ or PLY
+    #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
+    pub(super) export_mesh: Option<PathBuf>,
+    /// Write where the time went, as a Chrome trace
+    #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
+    pub(super) trace: Option<Target>,
+}
+
+/// Where a replay stops.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Until {
+    pub(super) event: usize,
+    pub(super) stage: Option<String>,
+}
+
+impl FromStr for Until {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (event, stage) = text.split_once('.').map_or((text, None), |(event, stage)| (event, Some(stage)));
+        let event = event.parse().map_err(|_| "not EVENT or EVENT.STAGE, such as 4 or 4.MC".to_owned())?;
+        Ok(Self { event, stage: stage.map(str::to_owned) })
     }
 }
 
@@ -74,6 +176,30 @@ pub(super) struct Info {
     pub(super) json: Json,
 }
 
+/// Find the least of a recording that still breaks the same invariant
+#[derive(Debug, clap::Args)]
+pub(super) struct Reduce {
+    /// The recording
+    #[arg(value_name = "REC", value_hint = ValueHint::FilePath)]
+    pub(super) recording: PathBuf,
+    /// The recording to write
+    #[arg(short, long, value_name = "OUT", value_hint = ValueHint::FilePath)]
+    pub(super) output: Target,
+}
+
+/// Say where two runs part
+#[derive(Debug, clap::Args)]
+pub(super) struct Diff {
+    /// What is expected: a recording, a script, or a report of `replay --json`
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub(super) a: PathBuf,
+    /// What is compared with it
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub(super) b: PathBuf,
+    #[command(flatten)]
+    pub(super) json: Json,
+}
+
 /// Say what a mesh is, and what had to be repaired to read it
 #[derive(Debug, clap::Args)]
 pub(super) struct Check {
@@ -103,6 +229,10 @@ pub(super) struct Schema {
 pub(super) enum SchemaOf {
     /// A recording's script
     Script,
+    /// A scene
+    Scene,
+    /// The report of a replay
+    Report,
 }
 
 /// Print completions for a shell

@@ -6,7 +6,6 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::args::Check;
-use super::failure::Failure;
 use super::{Console, Done, Status, json};
 use crate::assets::{self, CacheOptions, MeshFacts, Note};
 use crate::recording::SceneRef;
@@ -24,7 +23,7 @@ struct Answer<'a> {
 
 pub(super) fn run(typed: &Check, console: &mut Console<'_>) -> Done {
     let cache = CacheOptions::from_environment();
-    let loaded = assets::open(&scene(&typed.mesh), Path::new(""), &cache).map_err(Failure::new)?;
+    let loaded = assets::open(&scene(&typed.mesh), Path::new(""), &cache)?;
     let facts = assets::inspect(&loaded.mesh);
     let answer = Answer {
         mesh: &typed.mesh,

@@ -4,7 +4,7 @@
 //! unless `NO_COLOR`, `CLICOLOR_FORCE` or `TERM` say otherwise; styles cross as ANSI only where it is wanted.
 
 use std::fmt::Display;
-use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::io::{self, BufWriter, ErrorKind, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
 use anstream::{AutoStream, ColorChoice};
@@ -24,13 +24,13 @@ impl<'a> Console<'a> {
         let colour = [AutoStream::choice(&out), AutoStream::choice(&err)].map(|c| c != ColorChoice::Never);
         let terminal = err.is_terminal();
         Self {
-            out: Channel::new(Box::new(out.lock()), colour[0], false),
-            err: Channel::new(Box::new(err.lock()), colour[1], terminal),
+            out: Channel::new(Box::new(BufWriter::new(out)), colour[0], false),
+            err: Channel::new(Box::new(err), colour[1], terminal),
         }
     }
 
     /// Two writers, without colour.
-    pub fn plain(out: &'a mut dyn Write, err: &'a mut dyn Write) -> Self {
+    pub fn plain(out: &'a mut (dyn Write + Send), err: &'a mut (dyn Write + Send)) -> Self {
         Self {
             out: Channel::new(Box::new(out), false, false),
             err: Channel::new(Box::new(err), false, false),
@@ -40,7 +40,7 @@ impl<'a> Console<'a> {
 
 /// One stream.
 pub(super) struct Channel<'a> {
-    to: Box<dyn Write + 'a>,
+    to: Box<dyn Write + Send + 'a>,
     /// Its reader has gone away.
     gone: bool,
     colour: bool,
@@ -59,7 +59,7 @@ const BETWEEN_DRAWINGS: Duration = Duration::from_millis(100);
 const ERASE_LINE: &str = "\r\x1b[2K";
 
 impl<'a> Channel<'a> {
-    fn new(to: Box<dyn Write + 'a>, colour: bool, terminal: bool) -> Self {
+    fn new(to: Box<dyn Write + Send + 'a>, colour: bool, terminal: bool) -> Self {
         let progress = terminal.then(|| Line { since: Instant::now(), drawn: None });
         Self { to, gone: false, colour, progress }
     }
@@ -99,8 +99,12 @@ impl<'a> Channel<'a> {
         let _ = self.write_all(text.as_bytes()).and_then(|()| self.flush());
     }
 
-    /// Shows how far a command is: on a terminal, after a second, and at most ten times a second.
-    pub(super) fn progress(&mut self, what: &dyn Display) {
+    /// Begins a piece of work that may take long.
+    pub(super) fn work<'c>(&'c mut self) -> Work<'c, 'a> {
+        Work(self)
+    }
+
+    fn progress(&mut self, what: &dyn Display) {
         let Some(line) = &mut self.progress else { return };
         let waits = line.since.elapsed() < PATIENCE;
         if waits || line.drawn.is_some_and(|at| at.elapsed() < BETWEEN_DRAWINGS) {
@@ -118,11 +122,6 @@ impl<'a> Channel<'a> {
         }
     }
 
-    /// Writes out what is left.
-    pub(super) fn finish(&mut self) -> io::Result<()> {
-        self.flush()
-    }
-
     /// A broken pipe counts as written.
     fn unless_gone<T>(&mut self, written: io::Result<T>, dropped: T) -> io::Result<T> {
         match written {
@@ -132,6 +131,23 @@ impl<'a> Channel<'a> {
             }
             other => other,
         }
+    }
+}
+
+/// A piece of work that shows how far it is: on a terminal, after a second, and at most ten times a second. Its line goes with it.
+pub(super) struct Work<'c, 'w>(&'c mut Channel<'w>);
+
+impl Work<'_, '_> {
+    /// Shows how far it is.
+    pub(super) fn show(&mut self, what: impl Display) {
+        self.0.progress(&what);
+    }
+}
+
+impl Drop for Work<'_, '_> {
+    fn drop(&mut self) {
+        // A terminal that cannot be written to shows no line either.
+        let _ = self.0.erase().and_then(|()| self.0.to.flush());
     }
 }
 
@@ -156,5 +172,45 @@ impl Write for Channel<'_> {
 impl Drop for Channel<'_> {
     fn drop(&mut self) {
         let _ = self.flush();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a terminal gets from a command that has run for some time.
+    fn terminal(since: Duration, command: impl FnOnce(&mut Channel<'_>)) -> String {
+        let mut written = Vec::new();
+        let mut channel = Channel::new(Box::new(&mut written), true, true);
+        channel.progress = Some(Line { since: Instant::now().checked_sub(since).unwrap(), drawn: None });
+        command(&mut channel);
+        drop(channel);
+        String::from_utf8(written).unwrap()
+    }
+
+    #[test]
+    fn progress_shows_after_a_second_and_goes_before_anything_else() {
+        let command = |channel: &mut Channel<'_>| {
+            let mut work = channel.work();
+            (1..=3).for_each(|i| work.show(format_args!("{i} of 3")));
+            drop(work);
+            writeln!(channel, "done").unwrap();
+        };
+        assert_eq!(
+            terminal(Duration::from_secs(2), command),
+            format!("{ERASE_LINE}1 of 3{ERASE_LINE}done\n")
+        );
+        assert_eq!(terminal(Duration::ZERO, command), "done\n");
+    }
+
+    #[test]
+    fn colour_is_for_those_who_want_it() {
+        assert_eq!(terminal(Duration::ZERO, |c| write!(c, "{}", c.good("x")).unwrap()), "\x1b[32mx\x1b[0m");
+        let mut plain = Vec::new();
+        let mut channel = Channel::new(Box::new(&mut plain), false, false);
+        write!(channel, "{}", channel.bad("x")).unwrap();
+        drop(channel);
+        assert_eq!(plain, b"x");
     }
 }

@@ -3,6 +3,10 @@
 use std::fmt;
 use std::path::Path;
 
+use crate::assets::AssetError;
+use crate::recording::WriteError;
+use crate::replay::OpenError;
+
 /// A line for the user.
 #[derive(Clone, Debug)]
 pub(super) struct Failure(String);
@@ -27,5 +31,23 @@ impl fmt::Display for Failure {
 impl From<std::io::Error> for Failure {
     fn from(error: std::io::Error) -> Self {
         Self(format!("writing: {error}"))
+    }
+}
+
+impl From<OpenError> for Failure {
+    fn from(error: OpenError) -> Self {
+        Self::new(error)
+    }
+}
+
+impl From<AssetError> for Failure {
+    fn from(error: AssetError) -> Self {
+        Self::new(error)
+    }
+}
+
+impl From<WriteError> for Failure {
+    fn from(error: WriteError) -> Self {
+        Self::new(error)
     }
 }

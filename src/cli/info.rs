@@ -5,13 +5,14 @@ use std::path::Path;
 use super::args::Info;
 use super::failure::Failure;
 use super::table::TextTable;
-use super::{Console, Done, Status, input, json};
+use super::{Console, Done, Status, json};
 use crate::assets;
 use crate::recording::{self, AnyRecording, Summary, summary};
+use crate::replay;
 
 pub(super) fn run(typed: &Info, console: &mut Console<'_>) -> Done {
     let (recording, damage) = readable(&typed.recording)?;
-    let summary = summary(&recording).map_err(Failure::new)?;
+    let summary = summary(&recording)?;
     json::write(&summary, typed.json.to.as_ref(), console)?;
     if typed.json.to.is_none() {
         table(&summary).write(&mut console.out)?;
@@ -21,9 +22,9 @@ pub(super) fn run(typed: &Info, console: &mut Console<'_>) -> Done {
 
 /// The recording, or the valid part of a damaged one and what is wrong with it.
 fn readable(path: &Path) -> Result<(AnyRecording, Option<Failure>), Failure> {
-    let bytes = assets::read_file(path).map_err(Failure::new)?;
-    if input::is_script(path, &bytes) {
-        return Ok((input::script(path, &bytes)?.unhashed().clone(), None));
+    let bytes = assets::read_file(path)?;
+    if recording::is_script(path, &bytes) {
+        return Ok((replay::read(path)?, None));
     }
     match recording::read(&bytes) {
         Ok(recording) => Ok((recording, None)),

@@ -25,11 +25,15 @@ pub(super) fn write(
 pub(super) fn put(bytes: &[u8], target: &Target, console: &mut Console<'_>) -> Result<(), Failure> {
     match target {
         Target::Stdout => Ok(console.out.write_all(bytes)?),
-        Target::File(path) => assets::write_file(path, bytes).map_err(Failure::new),
+        Target::File(path) => Ok(assets::write_file(path, bytes)?),
     }
 }
 
-/// Where the same is said for people: beside a JSON answer on standard output there is only standard error.
-pub(super) fn text<'c, 'a>(json: Option<&Target>, console: &'c mut Console<'a>) -> &'c mut Channel<'a> {
-    if matches!(json, Some(Target::Stdout)) { &mut console.err } else { &mut console.out }
+/// Where the same is said for people: beside an answer on standard output there is only standard error.
+pub(super) fn text<'c, 'a, const N: usize>(
+    answers: [&Option<Target>; N],
+    console: &'c mut Console<'a>,
+) -> &'c mut Channel<'a> {
+    let taken = answers.into_iter().any(|to| *to == Some(Target::Stdout));
+    if taken { &mut console.err } else { &mut console.out }
 }

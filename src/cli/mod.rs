@@ -7,23 +7,31 @@
 //! the progress line are looked after in one place, and a test can read what was written.
 
 mod args;
+mod bless;
 mod check;
 mod completions;
 mod console;
+mod diff;
 mod doctor;
 mod failure;
 mod info;
-mod input;
 mod json;
 mod man;
 mod pack;
+mod place;
+mod reduce;
+mod replay;
+mod scenes;
 mod schema;
+mod show;
 mod table;
 #[cfg(test)]
 mod tests;
 mod unpack;
+mod verify;
 
 use std::ffi::OsString;
+use std::io::Write;
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -65,10 +73,16 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, console: &mut Console<
 
 fn dispatch(command: Command, console: &mut Console<'_>) -> Done {
     match command {
+        Command::Verify(typed) => verify::run(&typed, console),
+        Command::Bless(typed) => bless::run(&typed, console),
+        Command::Replay(typed) => replay::run(&typed, console),
         Command::Pack(typed) => pack::run(&typed, console),
         Command::Unpack(typed) => unpack::run(&typed, console),
         Command::Info(typed) => info::run(&typed, console),
+        Command::Reduce(typed) => reduce::run(&typed, console),
+        Command::Diff(typed) => diff::run(&typed, console),
         Command::Check(typed) => check::run(&typed, console),
+        Command::Scenes => scenes::run(console),
         Command::Doctor => doctor::run(console),
         Command::Schema(typed) => schema::run(&typed, console),
         Command::Completions(typed) => completions::run(&typed, console),
@@ -76,9 +90,10 @@ fn dispatch(command: Command, console: &mut Console<'_>) -> Done {
     }
 }
 
+/// Writes the answer out before the complaint.
 fn finish(done: Done, console: &mut Console<'_>) -> Status {
-    let status = done.and_then(|status| console.out.finish().map(|()| status).map_err(Failure::from));
-    status.unwrap_or_else(|failure| {
+    let written = console.out.flush().map_err(Failure::from);
+    done.and_then(|status| written.map(|()| status)).unwrap_or_else(|failure| {
         console.err.error(&failure);
         Status::Failed
     })

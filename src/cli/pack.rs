@@ -2,14 +2,15 @@
 
 use super::args::Pack;
 use super::failure::Failure;
-use super::{Console, Done, Status, input, json};
+use super::{Console, Done, Status, json, place};
 use crate::recording::to_bytes;
+use crate::replay::Case;
 
 pub(super) fn run(typed: &Pack, console: &mut Console<'_>) -> Done {
-    let mut input = input::hashed(&typed.script)?;
-    let scene = input::moved(input.recording.scene(), &input.base, &typed.output)?;
-    input.recording.set_scene(scene);
-    let bytes = to_bytes(&input.recording).map_err(|e| Failure::about(&typed.script)(&e))?;
+    let mut case = Case::open(&typed.script)?;
+    let scene = place::moved(case.recording.scene(), &case.folder, &typed.output)?;
+    case.recording.set_scene(scene);
+    let bytes = to_bytes(&case.recording).map_err(|e| Failure::about(&typed.script)(&e))?;
     json::put(&bytes, &typed.output, console)?;
     Ok(Status::Verified)
 }

@@ -13,7 +13,7 @@ enum Side {
     Right,
 }
 
-/// A table that is being filled. The last column is not padded.
+/// A table that is being filled. The last cell of a row is not padded.
 pub(super) struct TextTable {
     sides: Vec<Side>,
     rows: Vec<Vec<Cell>>,
@@ -73,8 +73,10 @@ impl TextTable {
     }
 
     fn write_row(&self, row: &[Cell], widths: &[usize], to: &mut Channel<'_>) -> io::Result<()> {
-        let last = row.len().saturating_sub(1);
-        for (column, ((cell, side), width)) in row.iter().zip(&self.sides).zip(widths).enumerate() {
+        let Some(last) = row.iter().rposition(|cell| !cell.text.is_empty()) else { return writeln!(to) };
+        for (column, ((cell, side), width)) in
+            row.iter().zip(&self.sides).zip(widths).enumerate().take(last + 1)
+        {
             let pad = " ".repeat(width - cell.width());
             let text = to.paint(cell.style, &cell.text);
             match side {
@@ -100,7 +102,7 @@ mod tests {
         table.row(["größer", "12345", "x"]);
         let (mut out, mut err) = (Vec::new(), Vec::new());
         table.write(&mut Console::plain(&mut out, &mut err).out).unwrap();
-        let expected = "name     cuts  note\na           1  \ngrößer  12345  x\n";
+        let expected = "name     cuts  note\na           1\ngrößer  12345  x\n";
         assert_eq!(String::from_utf8(out).unwrap(), expected);
     }
 }

@@ -92,6 +92,11 @@ impl AnyRecording {
         each!(self, recording => [recording.scene_hash, recording.mesh_hash])
     }
 
+    /// Whether the hashes are known. Those of a script are zero until it is packed.
+    pub fn is_hashed(&self) -> bool {
+        self.hashes() != [[0; 32]; 2]
+    }
+
     /// Width and height of the view, pixels.
     pub fn viewport(&self) -> [u32; 2] {
         each!(self, recording => recording.viewport)

@@ -8,6 +8,7 @@
 //! what such a file says is validated as any other.
 
 use std::io::Write;
+use std::path::Path;
 
 use bincode::config::{Configuration, Fixint, Limit, LittleEndian, standard};
 use serde::de::DeserializeOwned;
@@ -35,9 +36,10 @@ struct End {
     events: u64,
 }
 
-/// Whether bytes begin as a file does, rather than a script.
-pub fn is_binary(bytes: &[u8]) -> bool {
-    bytes.starts_with(&MAGIC)
+/// Whether a file is a script rather than a recording: it has a script's name, or at least not a recording's name or beginning.
+pub fn is_script(path: &Path, bytes: &[u8]) -> bool {
+    let named = |extension| path.extension().is_some_and(|e| e == extension);
+    !bytes.starts_with(&MAGIC) && (named("json") || !named("lancet"))
 }
 
 /// Reads a file.

@@ -29,7 +29,7 @@ use crate::engine::Event;
 pub use any::{AnyRecording, ENGINES, Recorded, Visit};
 pub use diff::{InputDifference, first_difference};
 pub use error::{Cause, ReadError, ScriptError, WriteError};
-pub use format::{is_binary, read, to_bytes, write};
+pub use format::{is_script, read, to_bytes, write};
 pub use frame::VERSION;
 pub use reduce::{Progress, reduce};
 pub use scene_ref::{InlineMesh, SceneRef};

@@ -57,7 +57,7 @@ impl<E: Event, F: FnMut(&Recording<E>) -> bool, P: FnMut(Progress)> Search<'_, E
     }
 
     /// Makes each number as round as it can be.
-    fn round(&mut self, events: &mut Vec<Keyed<E>>) {
+    fn round(&mut self, events: &mut [Keyed<E>]) {
         for at in 0..events.len() {
             // A number that became whole is no longer counted: from the last to the first the others keep their places.
             for place in (0..simplify::numbers(&events[at].event)).rev() {

@@ -53,6 +53,11 @@ impl Script {
         &self.0
     }
 
+    /// The same, given away.
+    pub fn into_unhashed(self) -> AnyRecording {
+        self.0
+    }
+
     /// Says where the scene is.
     pub fn set_scene(&mut self, scene: SceneRef) {
         self.0.set_scene(scene);

@@ -21,7 +21,7 @@ mod timeline;
 #[cfg(test)]
 pub(crate) mod toy;
 
-pub use open::{OpenError, open, open_file};
+pub use open::{Case, OpenError, open, open_file, read};
 pub use session::Session;
 pub use stages::{Plant, Planting};
 

@@ -7,7 +7,7 @@ use super::{Options, Replay, Session};
 use crate::assets::{self, AssetError, CacheOptions, Loaded, SceneSettings};
 use crate::engine::Engine;
 use crate::engine::wound::{self, Wound};
-use crate::recording::{self, AnyRecording, ReadError, Recording};
+use crate::recording::{self, AnyRecording, ReadError, Recording, Script, ScriptError};
 
 /// Why a recording cannot be replayed.
 #[derive(Debug)]
@@ -20,6 +20,13 @@ pub enum OpenError {
         path: PathBuf,
         /** What is wrong with it, and where. */
         error: Box<ReadError>,
+    },
+    /// The script is none.
+    Script {
+        /** Its file. */
+        path: PathBuf,
+        /** What is wrong with it, and where. */
+        error: ScriptError,
     },
     /// The scene or its mesh is not what was recorded on.
     Mismatch {
@@ -37,6 +44,7 @@ impl fmt::Display for OpenError {
         match self {
             Self::Asset(error) => error.fmt(f),
             Self::Recording { path, error } => write!(f, "{}: {error}", path.display()),
+            Self::Script { path, error } => write!(f, "{}: {error}", path.display()),
             Self::Mismatch { what, expected, found } => {
                 write!(
                     f,
@@ -49,14 +57,49 @@ impl fmt::Display for OpenError {
 
 impl std::error::Error for OpenError {}
 
-/// Opens a recording's file, with the scene that it names.
-pub fn open_file(path: &Path, options: Options) -> Result<Box<dyn Replay>, OpenError> {
+/// A recording on its scene, ready to be replayed as often as is needed.
+#[derive(Debug)]
+pub struct Case {
+    /// What was recorded.
+    pub recording: AnyRecording,
+    /// The folder that its paths are relative to.
+    pub folder: PathBuf,
+    scene: Loaded,
+}
+
+impl Case {
+    /// Reads a recording, or a script, and opens the scene that it names. A script gets the hashes that the scene has.
+    pub fn open(path: &Path) -> Result<Self, OpenError> {
+        let mut recording = read(path)?;
+        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+        let scene = assets::open(recording.scene(), &folder, &CacheOptions::from_environment());
+        let scene = scene.map_err(OpenError::Asset)?;
+        if !recording.is_hashed() {
+            recording.set_hashes([scene.scene_hash, scene.mesh_hash]);
+        }
+        Ok(Self { recording, folder, scene })
+    }
+
+    /// A replay of its recording, or of another on the same scene.
+    pub fn replay(&self, recording: &AnyRecording, options: Options) -> Result<Box<dyn Replay>, OpenError> {
+        open(recording, self.scene.clone(), options)
+    }
+}
+
+/// Reads a recording, or a script as it stands: its hashes are not known.
+pub fn read(path: &Path) -> Result<AnyRecording, OpenError> {
     let bytes = assets::read_file(path).map_err(OpenError::Asset)?;
-    let recording =
-        recording::read(&bytes).map_err(|error| OpenError::Recording { path: path.into(), error })?;
-    let base = path.parent().unwrap_or(Path::new(""));
-    let scene = assets::open(recording.scene(), base, &CacheOptions::from_environment());
-    open(&recording, scene.map_err(OpenError::Asset)?, options)
+    if recording::is_script(path, &bytes) {
+        let script = Script::parse(&bytes).map_err(|error| OpenError::Script { path: path.into(), error })?;
+        return Ok(script.into_unhashed());
+    }
+    recording::read(&bytes).map_err(|error| OpenError::Recording { path: path.into(), error })
+}
+
+/// Opens a recording or a script, with the scene that it names.
+pub fn open_file(path: &Path, options: Options) -> Result<Box<dyn Replay>, OpenError> {
+    let Case { recording, scene, .. } = Case::open(path)?;
+    open(&recording, scene, options)
 }
 
 /// A recording, on the scene that it was recorded on.

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use super::toy::{Toy, ToyEvent, ToyState};
 use super::*;
 use crate::report::Outcome;
-use ToyEvent::{Add, Checkpoint, Click, Halve, Redo, Undo};
+use ToyEvent::{Add, Checkpoint, Click, Halve, Leak, Redo, Undo};
 
 fn session_with(events: &[ToyEvent], options: Options) -> Session<Toy> {
     let keyed = events.iter().cloned().enumerate().map(|(i, e)| (i as u32, e)).collect();
@@ -228,6 +228,16 @@ fn deltas_are_the_buffers_behind_the_digests() {
     assert!(session.take_deltas().is_empty());
 }
 
+#[test]
+fn an_event_that_does_not_repeat_is_a_finding() {
+    let mut session = session_with(&[Leak, Add(1, 1.0)], Options { budget_bytes: 0, ..Options::default() });
+    session.finish();
+    assert_eq!(session.finding(), None);
+    session.seek(0);
+    session.finish();
+    assert_eq!(session.finding().map(|f| (f.event, f.name())), Some((Some(0), "replay/repeats".into())));
+}
+
 fn any_event() -> impl Strategy<Value = ToyEvent> {
     prop_oneof![
         4 => (0..10usize, -5.0..120.0f64).prop_map(|(at, value)| Add(at, value)),
@@ -253,12 +263,13 @@ proptest! {
         walk in prop::collection::vec(0..70usize, 0..25),
         budget_bytes in any_budget(),
     ) {
-        let mut linear = session(&events);
+        let options = |budget_bytes| Options { budget_bytes, check_every: 3, ..Options::default() };
+        let mut linear = session_with(&events, options(256 << 20));
         let mut states = vec![linear.engine_state().clone()];
         while linear.step().is_some() {
             states.push(linear.engine_state().clone());
         }
-        let mut session = session_with(&events, Options { budget_bytes, ..Options::default() });
+        let mut session = session_with(&events, options(budget_bytes));
         for target in walk {
             match target {
                 60.. if session.position() > 0 => prop_assert!(session.back()),

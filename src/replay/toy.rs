@@ -17,6 +17,8 @@ pub(crate) enum ToyEvent {
     Click(usize),
     /// Whether HV takes part.
     Halve(bool),
+    /// A bug: it depends on something that going back does not restore.
+    Leak,
     Undo,
     Redo,
     Checkpoint(String),
@@ -28,6 +30,7 @@ impl Event for ToyEvent {
             Self::Add(..) => "add",
             Self::Click(_) => "click",
             Self::Halve(_) => "halve",
+            Self::Leak => "leak",
             Self::Undo => "undo",
             Self::Redo => "redo",
             Self::Checkpoint(_) => "checkpoint",
@@ -58,11 +61,12 @@ pub(crate) struct ToyControl {
 pub(crate) struct ToyState {
     pub(crate) numbers: Vec<f64>,
     pub(crate) control: ToyControl,
+    leaks: u32,
 }
 
 impl ToyState {
     pub(crate) fn new(count: usize) -> Self {
-        Self { numbers: vec![0.0; count], control: ToyControl { halve: true, pending: None } }
+        Self { numbers: vec![0.0; count], control: ToyControl { halve: true, pending: None }, leaks: 0 }
     }
 }
 
@@ -167,6 +171,10 @@ impl Engine for Toy {
             (ToyEvent::Halve(on), pending) => {
                 state.control.halve = *on;
                 Start::Done(if pending.is_some() { Outcome::Cancelled } else { Outcome::None })
+            }
+            (ToyEvent::Leak, _) => {
+                state.leaks += 1;
+                Start::Rejected(Rejection::new("leak", state.leaks.to_string()))
             }
             _ => Start::Done(Outcome::None),
         }

@@ -102,6 +102,10 @@ impl Engine for Wound {
         checks::state(state)
     }
 
+    fn mesh(state: &State) -> Option<&Mesh> {
+        Some(&state.mesh)
+    }
+
     fn counts(state: &State) -> Vec<(&'static str, i64)> {
         let mesh = &state.mesh;
         vec![

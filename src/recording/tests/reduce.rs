@@ -63,17 +63,17 @@ fn one_event_of_a_thousand_takes_few_tries() {
 #[test]
 fn numbers_become_as_round_as_they_can() {
     let script = r#"{"version": 1, "scene": "builtin:bust", "events": [
-        {"click": [3.14159, 2.71828]}, {"cut": {"from": {"edge": [7, 0.123456]}, "to": {"node": 5}}}]}"#;
+        {"click": [3.24159, 2.71828]}, {"cut": {"from": {"edge": [7, 0.123456]}, "to": {"node": 5}}}]}"#;
     let AnyRecording::Wound(recording) = pack(script);
-    // The click must lie right of 3.1, the cut begin before the eighth part of its edge.
+    // The click must lie right of 3.2, the cut begin before the eighth part of its edge.
     let fails = |r: &Recording<WoundEvent>| {
         let events: Vec<&WoundEvent> = r.events.iter().map(|keyed| &keyed.event).collect();
         matches!(events[..], [WoundEvent::Click([x, _]), WoundEvent::Cut { from: Pick::Edge(_, t), .. }]
-            if *x > 3.1 && (0.1..0.125).contains(t))
+            if *x > 3.2 && (0.1..0.125).contains(t))
     };
     let reduced = reduce(&recording, fails, |_| ());
     let edge = Pick::Edge(EdgeId(7), 0.1);
     let cut = WoundEvent::Cut { from: edge, to: Pick::Node(NodeId(5)) };
     let events: Vec<WoundEvent> = reduced.events.into_iter().map(|keyed| keyed.event).collect();
-    assert_eq!(events, [WoundEvent::Click([3.14, 3.0]), cut]);
+    assert_eq!(events, [WoundEvent::Click([3.24, 3.0]), cut]);
 }

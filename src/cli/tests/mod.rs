@@ -3,6 +3,8 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+mod runs;
+
 use super::*;
 
 /// Runs the program; its status, answer and complaints.
@@ -105,6 +107,11 @@ fn a_mesh_is_told_about() {
     assert_eq!((&facts["faces"], &facts["euler"], &facts["closed"]), (&4.into(), &2.into(), &true.into()));
     let (_folder, broken) = file("broken.obj", b"v 0 0 0\nf 1 2 3\n");
     assert!(complaint(&["check", &broken]).contains("broken.obj: line 2"));
+}
+
+#[test]
+fn the_scenes_are_listed() {
+    assert!(answer(&["scenes"]).contains("builtin:bust"));
 }
 
 #[test]

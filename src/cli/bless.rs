@@ -1,0 +1,59 @@
+//! `lancet bless`: what the runs are now, as goldens.
+
+use std::io::{self, Write};
+
+use anstyle::{AnsiColor, Style};
+
+use super::args::Bless;
+use super::console::Channel;
+use super::table::{Cell, TextTable};
+use super::verify::{Line, jobs, status};
+use super::{Console, Done};
+use crate::verify::{self, BlessOptions, BlessReport, Blessed, Change};
+
+pub(super) fn run(typed: &Bless, console: &mut Console<'_>) -> Done {
+    let options = BlessOptions {
+        reason: typed.reason.clone(),
+        dry_run: typed.dry_run,
+        filter: typed.select.filter.clone(),
+        jobs: jobs(typed.select.jobs),
+    };
+    let report = verify::bless(&typed.paths, &options, &Line::on(&mut console.err));
+    show(&report, typed.dry_run, &mut console.out)?;
+    Ok(status(report.exit_code()))
+}
+
+fn show(report: &BlessReport, dry_run: bool, to: &mut Channel<'_>) -> io::Result<()> {
+    let mut table = TextTable::new(&["recording", "golden", ">facts changed", "first change"]);
+    let (same, others): (Vec<_>, Vec<_>) = report.recordings.iter().partition(|r| r.change == Change::Same);
+    others.iter().for_each(|blessed| table.row(row(blessed)));
+    if !others.is_empty() {
+        table.write(to)?;
+    }
+    let rest = report.orphans.iter().chain(&report.errors);
+    rest.into_iter().try_for_each(|problem| writeln!(to, "{} {problem}", to.bad("problem:")))?;
+    let written = others.iter().filter(|r| r.change != Change::Refused).count();
+    let verb = if dry_run { "would be written" } else { "written" };
+    writeln!(to, "{written} goldens {verb}, {} as they were, {} refused", same.len(), others.len() - written)
+}
+
+fn row(blessed: &Blessed) -> [Cell; 4] {
+    let (word, style) = match blessed.change {
+        Change::New => ("new", AnsiColor::Green.on_default()),
+        Change::Changed => ("changed", AnsiColor::Yellow.on_default()),
+        Change::Same => ("same", Style::new()),
+        Change::Refused => ("refused", AnsiColor::Red.on_default()),
+    };
+    let first = blessed.divergence.iter().map(ToString::to_string);
+    let new = (!blessed.new.is_empty()).then(|| format!("new: {}", blessed.new.join(", ")));
+    let why: Vec<String> = blessed
+        .error
+        .iter()
+        .cloned()
+        .chain(first)
+        .chain(new)
+        .chain(blessed.goldens.iter().cloned())
+        .collect();
+    let facts = blessed.differing;
+    [(&blessed.recording).into(), Cell::styled(word, style), facts.into(), why.join("; ").into()]
+}

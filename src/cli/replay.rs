@@ -1,0 +1,97 @@
+//! `lancet replay`: one recording, stage by stage.
+
+use super::args::{Replay, Until};
+use super::failure::Failure;
+use super::{Console, Done, Status, json, show};
+use crate::assets;
+use crate::replay::{self, Case, Options};
+use crate::report::{RunReport, trace};
+
+/// A replay, where it ended.
+type Replayed = Box<dyn replay::Replay>;
+
+pub(super) fn run(typed: &Replay, console: &mut Console<'_>) -> Done {
+    let case = Case::open(&typed.recording)?;
+    let (mut reports, mut last) = (Vec::new(), None);
+    for _ in 0..typed.repeat {
+        let (replayed, report) = once(typed, &case, console)?;
+        reports.push(report);
+        last = Some(replayed);
+    }
+    let Some((report, last)) = RunReport::with_median_times(&reports).zip(last) else {
+        return Ok(Status::Verified);
+    };
+    write(typed, &report, last.as_ref(), console)?;
+    let same = reports.iter().all(|other| other.without_times() == report.without_times());
+    if !same {
+        console.err.note("the runs differ from one another: that is a bug of lancet's");
+    }
+    Ok(if same && report.totals.findings == 0 { Status::Verified } else { Status::Diverged })
+}
+
+fn once(typed: &Replay, case: &Case, console: &mut Console<'_>) -> Result<(Replayed, RunReport), Failure> {
+    let options = Options { paranoid: typed.paranoid, ..Options::default() };
+    let mut replay = case.replay(&case.recording, options)?;
+    let name = typed.recording.display().to_string();
+    let report = match &typed.until {
+        None => to_the_end(replay.as_mut(), &name, console),
+        Some(until) => up_to(until, replay.as_mut(), &name, console)?,
+    };
+    Ok((replay, report))
+}
+
+fn to_the_end(replay: &mut dyn replay::Replay, name: &str, console: &mut Console<'_>) -> RunReport {
+    let end = replay.len();
+    step_to(replay, end, console);
+    replay.run_report(name)
+}
+
+fn up_to(
+    until: &Until,
+    replay: &mut dyn replay::Replay,
+    name: &str,
+    console: &mut Console<'_>,
+) -> Result<RunReport, Failure> {
+    if until.event >= replay.len() {
+        return Err(Failure::new(format_args!(
+            "there is no event {}; there are {}",
+            until.event,
+            replay.len()
+        )));
+    }
+    let Some(stage) = &until.stage else {
+        step_to(replay, until.event + 1, console);
+        return Ok(replay.run_report(name));
+    };
+    step_to(replay, until.event, console);
+    let last = replay.until(until.event, stage).map_err(Failure::new)?;
+    let before = replay.run_report(name);
+    let events = before.events.into_iter().chain([last]).collect();
+    Ok(RunReport::new(name, replay.engine(), before.scene, events, None))
+}
+
+fn step_to(replay: &mut dyn replay::Replay, end: usize, console: &mut Console<'_>) {
+    let mut work = console.err.work();
+    while replay.position() < end && replay.step().is_some() {
+        work.show(format_args!("event {} of {end}", replay.position()));
+    }
+}
+
+fn write(
+    typed: &Replay,
+    report: &RunReport,
+    replay: &dyn replay::Replay,
+    console: &mut Console<'_>,
+) -> Result<(), Failure> {
+    json::write(report, typed.json.as_ref(), console)?;
+    if let Some(target) = &typed.trace {
+        let mut spans = Vec::new();
+        trace(report, &mut spans)?;
+        json::put(&spans, target, console)?;
+    }
+    if let Some(path) = &typed.export_mesh {
+        let mesh = replay.mesh().ok_or_else(|| Failure::new("this engine has no mesh to export"))?;
+        assets::export::save(mesh, path)?;
+    }
+    Ok(show::run(report, json::text([&typed.json, &typed.trace], console))?)
+}

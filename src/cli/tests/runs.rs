@@ -1,0 +1,131 @@
+//! Commands that replay.
+
+use serde_json::Value;
+
+use super::{answer, complaint, file, lancet};
+use crate::cli::Status;
+
+/// A square of two triangles, cut by two clicks, missed by a third, and cut back.
+const SQUARE: &str = r#"{ "version": 1, "viewport": [100, 100], "seed": 3,
+  "scene": { "inline": { "nodes": [[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], "faces": [[0, 1, 2], [0, 2, 3]] } },
+  "events": [ { "mode": "merge" }, { "click": [45, 40] }, { "click": [60, 55] }, { "click": [0.5, 0.5] },
+              { "checkpoint": "cut" }, { "undo": {} } ] }"#;
+
+fn square() -> (tempfile::TempDir, String) {
+    file("square.json", SQUARE.as_bytes())
+}
+
+/// The packed square in a folder of recordings.
+fn recordings() -> (tempfile::TempDir, String, String) {
+    let (folder, script) = square();
+    let home = folder.path().join("recordings");
+    let packed = home.join("square.lancet");
+    answer(&["pack", &script, "-o", packed.to_str().unwrap()]);
+    (folder, home.to_str().unwrap().to_owned(), packed.to_str().unwrap().to_owned())
+}
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap()
+}
+
+#[test]
+fn a_replay_reports_stage_by_stage() {
+    let (_folder, script) = square();
+    let text = answer(&["replay", &script]);
+    for expected in ["event  kind", "applied", "rejected: miss", "FC", "MC", "1 cuts, 2 applied, 1 rejected"]
+    {
+        assert!(text.contains(expected), "{expected} is not in {text}");
+    }
+    let (status, out, err) = lancet(&["replay", &script, "--json", "-", "--repeat", "3"]);
+    let report = json(&out);
+    assert_eq!(
+        (status, &report["schema"], &report["engine"]),
+        (Status::Verified, &1.into(), &"wound".into())
+    );
+    assert_eq!(report["events"][2]["stages"][0]["id"], "FC");
+    assert!(err.contains("1 cuts, 2 applied"), "the table goes beside the answer: {err}");
+}
+
+#[test]
+fn a_replay_stops_where_it_is_told() {
+    let (_folder, script) = square();
+    let events = |until: &str| {
+        json(&lancet(&["replay", &script, "--until", until, "--json", "-"]).1)["events"].clone()
+    };
+    assert_eq!(events("2").as_array().unwrap().len(), 3);
+    let stages = events("2.FC")[2]["stages"].clone();
+    assert_eq!((&stages[0]["skipped"], &stages[1]["skipped"]), (&Value::Null, &"until".into()));
+    assert!(complaint(&["replay", &script, "--until", "6"]).contains("there is no event 6; there are 6"));
+    assert!(complaint(&["replay", &script, "--until", "2.XY"]).contains("XY"));
+    assert!(complaint(&["replay", &script, "--until", "x"]).contains("4 or 4.MC"));
+}
+
+#[test]
+fn a_replay_writes_its_mesh_and_its_trace() {
+    let (folder, script) = square();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    answer(&["replay", &script, "--until", "2", "--export-mesh", &at("a.obj"), "--trace", &at("t.json")]);
+    let obj = std::fs::read_to_string(at("a.obj")).unwrap();
+    assert!(obj.lines().filter(|line| line.starts_with("f ")).count() > 2, "{obj}");
+    assert!(json(&std::fs::read_to_string(at("t.json")).unwrap())["traceEvents"].is_array());
+    assert!(complaint(&["replay", &script, "--export-mesh", &at("a.stl")]).contains("a.stl"));
+}
+
+#[test]
+fn goldens_are_missing_then_blessed_then_verified() {
+    let (_folder, home, _) = recordings();
+    let (status, out, _) = lancet(&["verify", &home]);
+    assert_eq!(status, Status::Diverged);
+    assert!(out.contains("missing") && out.contains("1 recordings: 0 verified, 1 failed"), "{out}");
+    assert!(
+        answer(&["bless", &home, "--reason", "a test", "--dry-run"]).contains("1 goldens would be written")
+    );
+    assert!(answer(&["bless", &home, "--reason", "a test"]).contains("1 goldens written"));
+    assert!(answer(&["bless", &home, "--reason", "a test"]).contains("0 goldens written, 1 as they were"));
+    assert!(answer(&["verify", &home]).contains("1 recordings: 1 verified, 0 failed"));
+    let report = json(&lancet(&["verify", &home, "--json", "-"]).1);
+    assert_eq!(report["recordings"][0]["verdict"], "verified");
+    assert!(complaint(&["bless", &home]).contains("--reason"));
+}
+
+#[test]
+fn a_planted_defect_is_named() {
+    let (_folder, home, _) = recordings();
+    answer(&["bless", &home, "--reason", "a test"]);
+    let (status, out, _) = lancet(&["verify", &home, "--plant", "2.MC:nodes:n4:1"]);
+    assert_eq!(status, Status::Diverged);
+    assert!(out.contains("event 2, stage MC, buffer nodes, element n4: expected ("), "{out}");
+    assert!(complaint(&["verify", &home, "--plant", "2.MC"]).contains("EVENT.STAGE:BUFFER:ELEMENT:ULPS"));
+}
+
+#[test]
+fn an_unreadable_recording_does_not_hide_the_others() {
+    let (folder, home, packed) = recordings();
+    answer(&["bless", &home, "--reason", "a test"]);
+    let bytes = std::fs::read(&packed).unwrap();
+    std::fs::write(folder.path().join("recordings/a.lancet"), &bytes[..100]).unwrap();
+    let (status, out, _) = lancet(&["verify", &home]);
+    assert_eq!(status, Status::Failed);
+    assert!(out.contains("1 verified, 0 failed, 1 unreadable") && out.contains("byte 100, frame 1"), "{out}");
+}
+
+#[test]
+fn runs_are_compared() {
+    let (folder, script) = square();
+    assert!(answer(&["diff", &script, &script]).contains("the runs are the same"));
+    let (_other, moved) = file("moved.json", SQUARE.replace("[60, 55]", "[60, 54]").as_bytes());
+    let (status, out, _) = lancet(&["diff", &script, &moved]);
+    assert_eq!(status, Status::Diverged);
+    assert!(out.contains("the inputs differ first in events[2]: {\"click\":[60.0,55.0]}"), "{out}");
+    assert!(out.contains("the runs part at event 2, stage FC"), "{out}");
+    let report = folder.path().join("report.json");
+    answer(&["replay", &script, "--json", report.to_str().unwrap()]);
+    assert!(answer(&["diff", report.to_str().unwrap(), &script]).contains("the runs are the same"));
+    assert_eq!(lancet(&["diff", report.to_str().unwrap(), &moved]).0, Status::Diverged);
+}
+
+#[test]
+fn nothing_is_reduced_where_nothing_breaks() {
+    let (_folder, script) = square();
+    assert!(complaint(&["reduce", &script, "-o", "-"]).contains("there is nothing to reduce"));
+}
