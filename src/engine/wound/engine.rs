@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::event::{Mode, Pick, WoundEvent};
+use super::event::{Mode, Pick, SETTINGS, Value, WoundEvent};
 use super::state::{Before, Control, Cut, State, Work};
 use super::{checks, pick, show, stages, subdivide};
 use crate::engine::{Control as EventControl, Engine, Event, Shown, Stage, Start};
@@ -95,6 +95,7 @@ impl Engine for Wound {
         let c = &state.control.camera;
         camera.push_f64(0, &[c.target.x, c.target.y, c.target.z, c.azimuth, c.zenith, c.distance, c.fov_y]);
         buffers.extend([anchors, camera]);
+        buffers.extend(control_buffers(&state.control));
         buffers
     }
 
@@ -144,6 +145,24 @@ impl Engine for Wound {
             _ => Err(format!("nothing can be planted in buffer `{buffer}`; there are nodes and vertices")),
         }
     }
+}
+
+/// Mode, pending click and settings; names of settings are in the order of [`SETTINGS`].
+fn control_buffers(control: &Control) -> [Buffer; 2] {
+    let mut mode = Buffer::new("mode", "m", Scalar::U32, 2);
+    mode.push_u32(0, &[control.mode as u32, u32::from(control.pending.is_some())]);
+    let mut settings = Buffer::new("settings", "s", Scalar::F64, 1);
+    for (i, value) in (0u32..).zip(SETTINGS.iter().map(|(name, _)| control.settings.get(*name))) {
+        settings.push_f64(i, &[match value {
+            Some(Value::Number(v)) => *v,
+            Some(Value::Switch(on)) => f64::from(u8::from(*on)),
+            None => f64::NAN,
+        }]);
+    }
+    let [x, y] = control.pending.unwrap_or([f64::NAN; 2]);
+    settings.push_f64(SETTINGS.len() as u32, &[x]);
+    settings.push_f64(SETTINGS.len() as u32 + 1, &[y]);
+    [mode, settings]
 }
 
 fn off_by(value: f64, ulps: i64) -> f64 {
