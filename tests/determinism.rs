@@ -15,7 +15,7 @@ mod support;
 
 const SCENES: &[&str] = &["bust:2000", "sphere:2000", "slab", "torus", "two-fingers", "grid"];
 /// Events of a recording.
-const EVENTS: usize = 40;
+const EVENTS: usize = 60;
 const SIDE: u32 = 320;
 
 /// A recording on its scene.
@@ -68,8 +68,15 @@ fn events(random: &mut Random) -> impl Iterator<Item = WoundEvent> + '_ {
         }),
         6 => WoundEvent::Mode([Mode::Patch, Mode::Merge, Mode::Carve][random.below(3) as usize]),
         7..=9 => WoundEvent::Click(pixel(random)),
-        _ => WoundEvent::Cut { from: Pick::Pixel(pixel(random)), to: Pick::Pixel(pixel(random)) },
+        _ => cut(random),
     })
+}
+
+/// Of some 30 pixels.
+fn cut(random: &mut Random) -> WoundEvent {
+    let from = pixel(random);
+    let to = from.map(|x| x + 60.0 * (random.unit() - 0.5));
+    WoundEvent::Cut { from: Pick::Pixel(from), to: Pick::Pixel(to) }
 }
 
 /// Where most scenes have a surface.
