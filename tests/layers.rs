@@ -94,7 +94,7 @@ const BANS: &[Ban] = &[
     Ban { path: "std::io::stdout", but: &[], why: "writers are passed in" },
     Ban { path: "std::collections::HashMap", but: &[], why: "its order differs from run to run" },
     Ban { path: "std::collections::HashSet", but: &[], why: "its order differs from run to run" },
-    Ban { path: "std::collections::hash_map", but: &[], why: "its order differs from run to run" },
+    Ban { path: "std::collections::hash_map::HashMap", but: &[], why: "its order differs from run to run" },
     Ban { path: "gltf", but: &["assets"], why: "formats of files are for assets" },
     Ban { path: "clap", but: &["cli"], why: "one parser, in the front end" },
     Ban { path: "anstream", but: &["cli"], why: "colour is for the front end" },
