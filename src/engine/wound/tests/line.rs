@@ -70,11 +70,11 @@ fn what_cannot_be_cut_says_why() {
 
 #[test]
 fn an_open_mesh_is_cut_up_to_its_boundary_and_not_across_it() {
-    // A strip with a gap: the front of a plate without the column in its middle.
+    // A horseshoe: the front of a plate without the lower part of its middle.
     let whole = plate(6);
     let keep = |f: &&[u32; 3]| f.iter().all(|&i| whole.positions[i as usize].z == 0.0);
-    let column = |f: &&[u32; 3]| f.iter().map(|&i| whole.positions[i as usize].x).sum::<f64>().abs() > 3.0;
-    let gap = |f: &&[u32; 3]| column(f) || f.iter().any(|&i| whole.positions[i as usize].y > 3.0);
+    let sum = |f: &[u32; 3], axis: usize| f.iter().map(|&i| whole.positions[i as usize][axis]).sum::<f64>();
+    let gap = |f: &&[u32; 3]| sum(f, 0).abs() > 6.0 || sum(f, 1) > 6.0;
     let faces: Vec<[u32; 3]> = whole.faces.iter().filter(keep).filter(gap).copied().collect();
     let mut mesh = IndexedMesh { positions: whole.positions.clone(), faces, ..IndexedMesh::default() };
     let used: Vec<bool> =
