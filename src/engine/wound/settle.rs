@@ -8,6 +8,8 @@
 
 use std::cmp::Ordering;
 
+use glam::DVec3;
+
 use super::chain::{At, Chain, Point};
 use super::form::{common_face, trace};
 use super::pattern::{Child, Shape, altitude};
@@ -82,7 +84,8 @@ fn place(mesh: &Mesh, plane: &mut CutPlane, end: &Point, resolution: f64) -> Res
     if a == b.reverse() {
         return Ok(*end);
     }
-    if let Some(node) = nodes.into_iter().find(|&n| mesh.position(n).distance(end.position) <= resolution) {
+    let is_near = |p: DVec3| p.distance(end.position) <= resolution && plane.distance(p) <= resolution;
+    if let Some(node) = nodes.into_iter().find(|&n| is_near(mesh.position(n))) {
         plane.snap(node);
         return Ok(Point::node(mesh, node));
     }
@@ -248,7 +251,8 @@ fn snap_to_node(mesh: &Mesh, plane: &mut CutPlane, edge: EdgeId, point: &Point, 
 /// The node or edge of a face that a point inside of it was rounded onto. An edge only where the plane crosses it, or it lies in the plane.
 fn onto_border(mesh: &Mesh, plane: &CutPlane, face: FaceId, point: &Point, resolution: f64) -> Option<Point> {
     let f = mesh.face(face);
-    if let Some(&node) = f.nodes.iter().find(|&&n| mesh.position(n).distance(point.position) <= resolution) {
+    let is_near = |p: DVec3| p.distance(point.position) <= resolution && plane.distance(p) <= resolution;
+    if let Some(&node) = f.nodes.iter().find(|&&n| is_near(mesh.position(n))) {
         return Some(Point::node(mesh, node));
     }
     let near = f.edges.into_iter().find(|&e| {
