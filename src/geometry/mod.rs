@@ -28,9 +28,14 @@ pub fn distance_to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
 }
 
 /// Distance from a point to a triangle's plane; to its nearest corner where the triangle has no area.
+///
+/// With doubled digits: in floats alone the normal of a sliver would be off by more than what is measured.
 pub fn distance_to_plane(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
-    match (b - a).cross(c - a).try_normalize() {
-        Some(n) => (p - a).dot(n).abs(),
-        None => p.distance(a).min(p.distance(b)).min(p.distance(c)),
+    let normal = double::cross(double::difference(b, a), double::difference(c, a));
+    let length = double::rounded(normal).length();
+    if length > 0.0 {
+        (double::dot(normal, double::difference(p, a)).value() / length).abs()
+    } else {
+        p.distance(a).min(p.distance(b)).min(p.distance(c))
     }
 }

@@ -100,6 +100,14 @@ impl Axis {
 
 /// Whether two triangles face the same way: the sign of the dot product of their normals.
 pub fn facing(a: [DVec3; 3], b: [DVec3; 3]) -> Sign {
+    let sides = |t: [DVec3; 3]| (t[1] - t[0], t[2] - t[0]);
+    let ((u, v), (w, x)) = (sides(a), sides(b));
+    let dot = u.cross(v).dot(w.cross(x));
+    // Twelve products of two differences each, summed: far fewer roundings than this allows.
+    let size = [u, v, w, x].iter().map(|d| d.abs().element_sum()).product::<f64>();
+    if dot.abs() > 32.0 * f64::EPSILON * size && dot.abs() > SMALLEST_SURE && dot.is_finite() {
+        return if dot > 0.0 { Ordering::Greater } else { Ordering::Less };
+    }
     sign(&Facing(a, b))
 }
 

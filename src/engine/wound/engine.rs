@@ -70,14 +70,6 @@ impl Engine for Wound {
         show::show(state, work)
     }
 
-    fn mesh(state: &State) -> Option<&Mesh> {
-        Some(&state.mesh)
-    }
-
-    fn is_cut(work: &Work) -> bool {
-        matches!(work, Work::Cut(_))
-    }
-
     fn control(state: &State) -> Control {
         state.control.clone()
     }

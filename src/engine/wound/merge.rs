@@ -57,9 +57,8 @@ pub fn face_box(mesh: &Mesh, face: u32) -> Aabb {
 /// Brings a hierarchy up to a refinement: each parent shrinks to its first child, the others go beside it.
 pub fn follow_refinement(mesh: &Mesh, bvh: &mut Bvh, refined: &Refined) {
     let bounds = |f: u32| face_box(mesh, f);
-    for children in &refined.children {
-        let Some((first, rest)) = children.split_first() else { continue };
+    for (first, rest) in refined.children.iter().filter_map(|c| c.split_first()) {
         rest.iter().for_each(|_| bvh.insert(first.0, &bounds));
-        bvh.update(first.0, &bounds);
     }
+    bvh.update(refined.children.iter().filter_map(|c| c.first()).map(|f| f.0), &bounds);
 }

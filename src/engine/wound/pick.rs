@@ -126,7 +126,7 @@ pub struct Hit {
 /// The first face that the ray from `eye` through `through` meets in front of the eye.
 pub fn cast(mesh: &Mesh, bvh: &Bvh, eye: DVec3, through: DVec3) -> Option<Hit> {
     let mut best: Option<Hit> = None;
-    bvh.along(Ray { origin: eye, direction: through - eye }, |item| {
+    bvh.along(Ray { origin: eye, direction: through - eye }, f64::INFINITY, |item| {
         if let Some(hit) = meet(mesh, FaceId(item), eye, through) {
             best = Some(best.map_or(hit, |b| first(mesh, eye, through, b, hit)));
         }

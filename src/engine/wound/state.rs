@@ -115,12 +115,10 @@ impl State {
         if bvh.len() > count {
             bvh.truncate(count, &bounds);
         }
-        for &face in faces {
-            if face.at() < bvh.len() {
-                bvh.update(face.0, &bounds);
-            } else if face.at() < count {
-                bvh.insert(near(mesh, face, bvh.len()), &bounds);
-            }
+        let known = bvh.len();
+        bvh.update(faces.iter().map(|f| f.0).filter(|&f| (f as usize) < known), &bounds);
+        for &face in faces.iter().filter(|f| (known..count).contains(&f.at())) {
+            bvh.insert(near(mesh, face, bvh.len()), &bounds);
         }
     }
 }

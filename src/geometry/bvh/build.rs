@@ -21,6 +21,7 @@ impl Bvh {
             parents: Vec::with_capacity(2 * room),
             leaves: Vec::with_capacity(room),
             homes: Vec::with_capacity(count + count / 32 + 64),
+            built: 0,
         };
         tree.homes.resize(count, 0);
         tree.nodes.push(Node { bounds: Aabb::EMPTY, link: LEAF });
@@ -29,6 +30,7 @@ impl Bvh {
         while let Some(range) = ranges.pop() {
             tree.place(range, &mut items, &mut ranges);
         }
+        tree.built = tree.nodes.len();
         tree
     }
 
@@ -37,11 +39,9 @@ impl Bvh {
         let slice = &mut items[start..end];
         self.nodes[node as usize].bounds = slice.iter().fold(Aabb::EMPTY, |b, i| b.union(&i.1));
         if slice.len() <= LEAF_CAPACITY / 2 {
-            let mut ids = [0; LEAF_CAPACITY / 2];
-            slice.iter().enumerate().for_each(|(k, item)| ids[k] = item.0);
-            ids[..slice.len()].iter().for_each(|&i| self.homes[i as usize] = node);
+            slice.iter().for_each(|i| self.homes[i.0 as usize] = node);
             self.nodes[node as usize].link = self.leaves.len() as u32 | LEAF;
-            self.leaves.push(leaf_of(&ids[..slice.len()]));
+            self.leaves.push(leaf_of(slice.iter().map(|i| i.0)));
             return;
         }
         let middle = start + part(slice);

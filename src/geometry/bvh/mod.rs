@@ -108,6 +108,8 @@ pub struct Bvh {
     leaves: Vec<Leaf>,
     /// The node of each item's leaf.
     homes: Vec<u32>,
+    /// How many nodes the build made: those after them come from leaves that overflowed.
+    built: usize,
 }
 
 /// A ray that a query walks along; `t` is measured in lengths of `direction`.
@@ -142,11 +144,10 @@ impl Ray {
 }
 
 impl Bvh {
-    /// Visits the items of every leaf whose box a ray enters, nearest boxes first. The visitor returns the parameter beyond which it
-    /// is no longer interested.
-    pub fn along(&self, ray: Ray, mut visit: impl FnMut(u32) -> f64) {
+    /// Visits the items of every leaf whose box a ray enters before `limit`, nearest boxes first. The visitor returns the parameter
+    /// beyond which it is no longer interested.
+    pub fn along(&self, ray: Ray, mut limit: f64, mut visit: impl FnMut(u32) -> f64) {
         let inverse = ray.direction.recip();
-        let mut limit = f64::INFINITY;
         let mut stack: Vec<(u32, f64)> = Vec::with_capacity(64);
         if let Some(t) = ray.enters(inverse, &self.nodes[ROOT as usize].bounds, limit) {
             stack.push((ROOT, t));
@@ -211,9 +212,12 @@ impl Bvh {
             + (self.parents.capacity() + self.homes.capacity()) * size_of::<u32>()
     }
 
-    /// Refits the boxes above an item that moved.
-    pub fn update(&mut self, item: u32, bounds: &impl Fn(u32) -> Aabb) {
-        self.refit(self.homes[item as usize], bounds);
+    /// Refits the boxes above items that moved, each leaf once.
+    pub fn update(&mut self, items: impl IntoIterator<Item = u32>, bounds: &impl Fn(u32) -> Aabb) {
+        let mut homes: Vec<u32> = items.into_iter().map(|i| self.homes[i as usize]).collect();
+        homes.sort_unstable();
+        homes.dedup();
+        homes.into_iter().for_each(|home| self.refit(home, bounds));
     }
 
     /// Appends the item `len()` to the leaf of `near`, an item close to it.
@@ -229,7 +233,19 @@ impl Bvh {
         leaf.items[leaf.count as usize] = item;
         leaf.count += 1;
         self.homes.push(home);
-        self.refit(home, bounds);
+        self.widen(home, bounds(item));
+    }
+
+    /// Makes the boxes from a node upwards large enough for one more.
+    fn widen(&mut self, mut at: u32, by: Aabb) {
+        while at != NO_PARENT {
+            let wider = self.nodes[at as usize].bounds.union(&by);
+            if wider == self.nodes[at as usize].bounds {
+                return;
+            }
+            self.nodes[at as usize].bounds = wider;
+            at = self.parents[at as usize];
+        }
     }
 
     /// Takes the items from `len` on away.
@@ -243,6 +259,31 @@ impl Bvh {
                 leaf.count -= 1;
             }
             self.refit_below(home, len, bounds);
+            self.join_latest();
+        }
+    }
+
+    /// Takes splits of leaves back, newest first, as long as what is left in both halves fits into one: so undoing and redoing an edit
+    /// does not wear the tree out.
+    fn join_latest(&mut self) {
+        while self.nodes.len() > self.built {
+            let children = self.nodes.len() - 2;
+            let [low, high] = [children, children + 1].map(|c| self.nodes[c].link);
+            if low & LEAF == 0 || high & LEAF == 0 || (high & !LEAF) as usize != self.leaves.len() - 1 {
+                return;
+            }
+            let [a, b] = [low, high].map(|l| self.leaves[(l & !LEAF) as usize]);
+            if (a.count + b.count) as usize > LEAF_CAPACITY {
+                return;
+            }
+            let joined = leaf_of(a.items().iter().chain(b.items()).copied());
+            let parent = self.parents[children];
+            joined.items().iter().for_each(|&i| self.homes[i as usize] = parent);
+            self.leaves[(low & !LEAF) as usize] = joined;
+            self.nodes[parent as usize].link = low;
+            self.leaves.pop();
+            self.nodes.truncate(children);
+            self.parents.truncate(children);
         }
     }
 
@@ -273,32 +314,35 @@ impl Bvh {
     /// Makes a full leaf an inner node over two halves, parted along the axis in which its items spread most.
     fn split(&mut self, home: u32, bounds: &impl Fn(u32) -> Aabb) {
         let at = (self.nodes[home as usize].link & !LEAF) as usize;
-        let mut items = self.leaves[at].items;
-        let boxes = items.map(bounds);
+        let mut items = self.leaves[at].items.map(|i| (i, bounds(i)));
         let spread = |axis: usize| {
-            let centers = boxes.iter().map(|b| b.center2(axis));
+            let centers = items.iter().map(|i| i.1.center2(axis));
             let (lo, hi) = centers.fold((f32::INFINITY, f32::NEG_INFINITY), |(l, h), c| (l.min(c), h.max(c)));
             hi - lo
         };
         let axis = (0..3).fold(0, |best, k| if spread(k) > spread(best) { k } else { best });
-        items.sort_by(|&a, &b| bounds(a).center2(axis).total_cmp(&bounds(b).center2(axis)).then(a.cmp(&b)));
+        items.sort_unstable_by(|a, b| a.1.center2(axis).total_cmp(&b.1.center2(axis)).then(a.0.cmp(&b.0)));
         let (low, high) = items.split_at(LEAF_CAPACITY / 2);
-        self.leaves[at] = leaf_of(low);
-        self.leaves.push(leaf_of(high));
+        self.leaves[at] = leaf_of(low.iter().map(|i| i.0));
+        self.leaves.push(leaf_of(high.iter().map(|i| i.0)));
         let children = self.nodes.len() as u32;
         for (side, (half, leaf)) in [(low, at), (high, self.leaves.len() - 1)].into_iter().enumerate() {
-            let bounds = half.iter().fold(Aabb::EMPTY, |b, &i| b.union(&bounds(i)));
+            let bounds = half.iter().fold(Aabb::EMPTY, |b, i| b.union(&i.1));
             self.nodes.push(Node { bounds, link: leaf as u32 | LEAF });
             self.parents.push(home);
-            half.iter().for_each(|&i| self.homes[i as usize] = children + side as u32);
+            half.iter().for_each(|i| self.homes[i.0 as usize] = children + side as u32);
         }
         self.nodes[home as usize].link = children;
     }
 }
 
-fn leaf_of(items: &[u32]) -> Leaf {
-    let mut leaf = Leaf { items: [0; LEAF_CAPACITY], count: items.len() as u32 };
-    leaf.items[..items.len()].copy_from_slice(items);
+/// A leaf of at most [`LEAF_CAPACITY`] items.
+fn leaf_of(items: impl Iterator<Item = u32>) -> Leaf {
+    let mut leaf = Leaf { items: [0; LEAF_CAPACITY], count: 0 };
+    for (slot, item) in leaf.items.iter_mut().zip(items) {
+        *slot = item;
+        leaf.count += 1;
+    }
     leaf
 }
 

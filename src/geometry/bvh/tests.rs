@@ -41,7 +41,7 @@ fn a_query_finds_what_a_look_at_everything_finds_after_every_kind_of_edit() {
         }
     };
     agree(&tree, 1000, &scattered);
-    (0..1000).for_each(|i| tree.update(i, &moved));
+    tree.update(0..1000, &moved);
     agree(&tree, 1000, &moved);
     (1000..1600).for_each(|i| tree.insert(i % 37, &moved));
     agree(&tree, 1600, &moved);
@@ -52,6 +52,21 @@ fn a_query_finds_what_a_look_at_everything_finds_after_every_kind_of_edit() {
 }
 
 #[test]
+fn adding_and_taking_away_again_does_not_wear_the_tree_out() {
+    let mut tree = Bvh::build(500, &scattered);
+    let (nodes, bytes) = (tree.nodes.len(), tree.bytes());
+    for _ in 0..100 {
+        (500..700).for_each(|i| tree.insert(i % 50, &scattered));
+        tree.truncate(500, &scattered);
+        assert_eq!(tree.nodes.len(), nodes);
+    }
+    assert!(tree.bytes() <= 2 * bytes);
+    for query in queries() {
+        assert_eq!(found(&tree, &query, scattered), expected(500, &query, scattered));
+    }
+}
+
+#[test]
 fn a_ray_visits_every_box_that_it_enters() {
     let tree = Bvh::build(1000, &scattered);
     for k in 0..50u32 {
@@ -59,7 +74,7 @@ fn a_ray_visits_every_box_that_it_enters() {
         let origin = DVec3::new(-50.0, 400.0 - k as f64 * 9.0, 77.0);
         let ray = Ray { origin, direction: DVec3::from(target) - origin };
         let mut seen = Vec::new();
-        tree.along(ray, |i| {
+        tree.along(ray, f64::INFINITY, |i| {
             seen.push(i);
             f64::INFINITY
         });
@@ -73,7 +88,7 @@ fn a_ray_visits_every_box_that_it_enters() {
 fn a_ray_along_an_axis_through_a_face_of_a_box_enters_it() {
     let tree = Bvh::build(1, &|_| Aabb::around(&[DVec3::ZERO, DVec3::ONE]));
     let mut seen = 0;
-    tree.along(Ray { origin: DVec3::new(1.0, 0.5, -3.0), direction: DVec3::Z }, |_| {
+    tree.along(Ray { origin: DVec3::new(1.0, 0.5, -3.0), direction: DVec3::Z }, f64::INFINITY, |_| {
         seen += 1;
         f64::INFINITY
     });

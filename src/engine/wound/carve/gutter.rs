@@ -23,10 +23,10 @@ use crate::report::Rejection;
 
 /// How much of the tissue below a node its gutter may take.
 const SHARE_OF_TISSUE: f64 = 0.5;
-/// How often a depth is halved to keep the gutter from crossing something.
-const HALVINGS: usize = 40;
+/// How often a depth is reduced to keep the gutter from crossing something.
+const ATTEMPTS: usize = 24;
 /// After how many of them the opening narrows too.
-const PATIENCE: usize = 6;
+const PATIENCE: usize = 5;
 
 /// The direction in which the gutter goes down from each opened node: in the cutting plane, unit length.
 pub fn inward(place: &Place<'_>, line: &Line, range: &RangeInclusive<usize>) -> Vec<DVec3> {
@@ -80,11 +80,11 @@ pub fn dig(
     carved.opened[last].depth = 0.0;
     let links = build(place.mesh, carved, slit);
     carved.gutter = links.iter().flatten().copied().collect();
+    keep_clear(place, carved, opening, inward, &links)?;
     for (i, link) in links.iter().enumerate() {
         let beside = slit.right_faces[i].0;
         link.iter().for_each(|_| place.bvh.insert(beside, &|f| face_box(place.mesh, f)));
     }
-    keep_clear(place, carved, opening, inward, &links)?;
     shade(place.mesh, carved);
     Ok(())
 }
@@ -107,7 +107,7 @@ fn bound_depths(place: &Place<'_>, carved: &mut Carved, inward: &[DVec3]) -> Res
 /// How far it is to the next face below a node, not counting those that meet there; at least `enough` is not told apart.
 fn thickness(place: &Place<'_>, o: &Opened, direction: DVec3, enough: f64) -> f64 {
     let mut nearest = enough;
-    place.bvh.along(Ray { origin: o.at, direction }, |item| {
+    place.bvh.along(Ray { origin: o.at, direction }, enough, |item| {
         let face = place.mesh.face(FaceId(item));
         if face.corner(o.left).is_none() && face.corner(o.right).is_none() {
             let t = distance_along(o.at, direction, place.mesh.triangle(FaceId(item)));
@@ -214,63 +214,187 @@ fn keep_clear(
     inward: &[DVec3],
     links: &[Vec<FaceId>],
 ) -> Result<(), Rejection> {
-    let link_of: FxHashMap<FaceId, usize> =
-        links.iter().enumerate().flat_map(|(i, l)| l.iter().map(move |&f| (f, i))).collect();
     let mut halved = vec![0usize; carved.opened.len()];
-    let mut suspects: Vec<usize> = (0..links.len()).collect();
+    let all: Vec<usize> = (0..links.len()).collect();
+    let mut suspects = all.clone();
+    let mut narrowed = false;
     while !suspects.is_empty() {
-        let mut shallow: Vec<usize> = Vec::new();
-        for &i in &suspects {
-            for other in crossed(place, &links[i]) {
-                shallow.extend([i, i + 1]);
-                shallow.extend(link_of.get(&other).into_iter().flat_map(|&j| [j, j + 1]));
-            }
+        let shallow = crossing_nodes(place, carved, links, &suspects);
+        if shallow.is_empty() && std::mem::take(&mut narrowed) {
+            // What an opening that narrowed let go may have come to lie elsewhere.
+            suspects.clone_from(&all);
+            continue;
         }
-        shallow.sort_unstable();
-        shallow.dedup();
-        shallow.retain(|&i| carved.opened[i].left != carved.opened[i].right);
         for &i in &shallow {
             halved[i] += 1;
             let o = &mut carved.opened[i];
-            o.depth *= 0.5;
-            if halved[i] > HALVINGS || o.depth < least(place.largest) {
+            o.depth *= if halved[i] > PATIENCE { 0.25 } else { 0.5 };
+            if halved[i] > ATTEMPTS || o.depth < least(place.largest) {
                 let detail = format!("however shallow, the gutter at {} crosses something", o.left);
                 return Err(Rejection::new("no-tissue", detail));
             }
             place.mesh.set_position(o.bottom, o.at + inward[i] * o.depth);
         }
-        suspects = shallow.iter().flat_map(|&i| [i - 1, i]).collect();
-        suspects.dedup();
+        let mut changed = shallow.clone();
         let stuck: Vec<usize> = shallow.into_iter().filter(|&i| halved[i] > PATIENCE).collect();
         if !stuck.is_empty() {
+            let before: Vec<f64> = carved.opened.iter().map(|o| o.half_width).collect();
             opening.narrow(place, carved, &stuck)?;
-            suspects = (0..links.len()).collect();
+            changed.extend((0..before.len()).filter(|&i| before[i] != carved.opened[i].half_width));
+            narrowed = true;
         }
-        for &l in &suspects {
-            links[l].iter().for_each(|f| place.bvh.update(f.0, &|f| face_box(place.mesh, f)));
-        }
+        suspects = changed.iter().flat_map(|&i| [i - 1, i]).collect();
+        suspects.sort_unstable();
+        suspects.dedup();
     }
     carved.shallowed = carved.opened.iter().filter(|o| o.left != o.right && o.depth < carved.depth).count();
     Ok(())
 }
 
-/// The faces that a link of the gutter crosses.
-fn crossed(place: &Place<'_>, link: &[FaceId]) -> Vec<FaceId> {
-    let mesh = &*place.mesh;
-    let corners = |f: FaceId| Corners { ids: mesh.face(f).nodes.map(|n| n.0), at: mesh.triangle(f) };
-    let walls: Vec<(Corners, Aabb)> = link.iter().map(|&f| (corners(f), face_box(mesh, f.0))).collect();
-    let points: Vec<DVec3> = walls.iter().flat_map(|w| w.0.at).collect();
-    let mut found = Vec::new();
-    place.bvh.overlapping(&Aabb::around(&points), |item| {
-        let bounds = face_box(mesh, item);
-        let other = FaceId(item);
-        let near = walls.iter().filter(|w| w.1.overlaps(&bounds));
-        if !link.contains(&other) && near.into_iter().any(|w| cross(&w.0, &corners(other))) {
-            found.push(other);
+/// The inner nodes of the links among `suspects` that cross something, and of the links that they cross.
+fn crossing_nodes(place: &Place<'_>, carved: &Carved, links: &[Vec<FaceId>], suspects: &[usize]) -> Vec<usize> {
+    let mut nodes = Vec::new();
+    for &i in suspects {
+        let link = Link::new(place, carved, links, i);
+        let rivals = link.crossed_links(place, carved, links);
+        if !rivals.is_empty() || link.crosses_surface(place) {
+            nodes.extend(std::iter::once(i).chain(rivals).flat_map(|j| [j, j + 1]));
         }
-        true
-    });
-    found
+    }
+    nodes.sort_unstable();
+    nodes.dedup();
+    nodes.retain(|&i| carved.opened[i].left != carved.opened[i].right);
+    nodes
+}
+
+/// A face of the gutter, made ready for being tested against many.
+struct Wall {
+    corners: Corners,
+    bounds: Aabb,
+    normal: DVec3,
+    /// Farther from the wall's plane than this is off it, whatever was rounded.
+    slack: f64,
+}
+
+impl Wall {
+    fn new(place: &Place<'_>, face: FaceId) -> Self {
+        let corners = corners(place.mesh, face);
+        let [a, b, c] = corners.at;
+        let normal = (b - a).cross(c - a);
+        let slack = 1e-13 * place.largest * (b - a).abs().element_sum() * (c - a).abs().element_sum();
+        Self { corners, bounds: Aabb::around(&corners.at), normal, slack }
+    }
+
+    /// Whether the wall crosses a face; most are told apart by a few products.
+    fn crosses(&self, other: &Corners, bounds: &Aabb) -> bool {
+        self.bounds.overlaps(bounds) && !self.has_on_one_side(other) && cross(&self.corners, other)
+    }
+
+    fn has_on_one_side(&self, other: &Corners) -> bool {
+        let (mut above, mut below) = (true, true);
+        for i in (0..3).filter(|&i| !self.corners.ids.contains(&other.ids[i])) {
+            let height = self.normal.dot(other.at[i] - self.corners.at[0]);
+            above &= height > self.slack;
+            below &= height < -self.slack;
+        }
+        above || below
+    }
+}
+
+fn corners(mesh: &Mesh, face: FaceId) -> Corners {
+    Corners { ids: mesh.face(face).nodes.map(|n| n.0), at: mesh.triangle(face) }
+}
+
+/// One end of a link of the gutter: the plane through the node's spoke, from the rims to the bottom, across the line.
+///
+/// The rims move along û alone, so they lie in it too, and a link is held between the planes of its two ends. What lies beyond one
+/// of them crosses nothing of the link: this tells nearly all neighbours apart, the gutter's other links first of all.
+struct Spoke {
+    ids: [u32; 3],
+    at: DVec3,
+    /// Away from the link.
+    outward: DVec3,
+    slack: f64,
+}
+
+impl Spoke {
+    /// The plane at the end `here` of a link whose other end is `there`; `None` where the link reaches through it.
+    fn new(place: &Place<'_>, here: &Opened, there: &Opened) -> Option<Self> {
+        let bottom = place.mesh.position(here.bottom);
+        let outward = place.plane.unit().cross(bottom - here.at);
+        let across = here.at - there.at;
+        let outward = if outward.dot(across) < 0.0 { -outward } else { outward };
+        let slack = 1e-13 * place.largest * outward.abs().element_sum();
+        let spoke =
+            Self { ids: [here.left, here.right, here.bottom].map(|n| n.0), at: here.at, outward, slack };
+        let corners = [there.left, there.right, there.bottom].map(|n| place.mesh.position(n));
+        corners.iter().all(|&p| spoke.height(p) < -slack).then_some(spoke)
+    }
+
+    fn height(&self, point: DVec3) -> f64 {
+        self.outward.dot(point - self.at)
+    }
+
+    /// Whether a face lies beyond the plane, but for corners that it shares with the spoke.
+    fn is_before(&self, other: &Corners) -> bool {
+        (0..3).all(|i| self.ids.contains(&other.ids[i]) || self.height(other.at[i]) > self.slack)
+    }
+
+    /// Whether a spoke of the gutter lies beyond the plane.
+    fn is_before_spoke(&self, place: &Place<'_>, other: &Opened) -> bool {
+        self.height(other.at) > self.slack && self.height(place.mesh.position(other.bottom)) > self.slack
+    }
+}
+
+/// A link of the gutter, made ready for being tested against many faces.
+struct Link {
+    index: usize,
+    walls: Vec<Wall>,
+    /// At its start and at its end.
+    spokes: [Option<Spoke>; 2],
+}
+
+impl Link {
+    fn new(place: &Place<'_>, carved: &Carved, links: &[Vec<FaceId>], index: usize) -> Self {
+        let (start, end) = (&carved.opened[index], &carved.opened[index + 1]);
+        Self {
+            index,
+            walls: links[index].iter().map(|&f| Wall::new(place, f)).collect(),
+            spokes: [Spoke::new(place, start, end), Spoke::new(place, end, start)],
+        }
+    }
+
+    fn crosses(&self, other: &Corners) -> bool {
+        if self.spokes.iter().flatten().any(|s| s.is_before(other)) {
+            return false;
+        }
+        let bounds = Aabb::around(&other.at);
+        self.walls.iter().any(|w| w.crosses(other, &bounds))
+    }
+
+    /// Whether the link crosses a face of the surface around it.
+    fn crosses_surface(&self, place: &Place<'_>) -> bool {
+        let points: Vec<DVec3> = self.walls.iter().flat_map(|w| w.corners.at).collect();
+        let mut found = false;
+        place.bvh.overlapping(&Aabb::around(&points), |item| {
+            found = self.crosses(&corners(place.mesh, FaceId(item)));
+            !found
+        });
+        found
+    }
+
+    /// The other links that this one crosses.
+    fn crossed_links(&self, place: &Place<'_>, carved: &Carved, links: &[Vec<FaceId>]) -> Vec<usize> {
+        // A neighbour shares the spoke itself, so only its far end counts.
+        let apart = |j: usize| {
+            let (spoke, shared) = if j < self.index { (&self.spokes[0], self.index) } else { (&self.spokes[1], self.index + 1) };
+            let ends = [j, j + 1].into_iter().filter(|&k| k != shared);
+            let is_before = |s: &Spoke| ends.clone().all(|k| s.is_before_spoke(place, &carved.opened[k]));
+            spoke.as_ref().is_some_and(is_before)
+        };
+        let others = (0..links.len()).filter(|&j| j != self.index && !apart(j));
+        others.filter(|&j| links[j].iter().any(|&f| self.crosses(&corners(place.mesh, f)))).collect()
+    }
 }
 
 /// Normals and tangents of the gutter's own vertices, from its faces.
@@ -297,12 +421,11 @@ fn shade(mesh: &mut Mesh, carved: &Carved) {
 /// Whether a gutter face crosses any face of the mesh: the promise, for who wants to see it kept.
 pub fn crosses_something(place: (&Mesh, &crate::geometry::bvh::Bvh), face: FaceId) -> Option<FaceId> {
     let (mesh, bvh) = place;
-    let corners = |f: FaceId| Corners { ids: mesh.face(f).nodes.map(|n| n.0), at: mesh.triangle(f) };
-    let (mine, bounds) = (corners(face), face_box(mesh, face.0));
+    let (mine, bounds) = (corners(mesh, face), face_box(mesh, face.0));
     let mut found = None;
     bvh.overlapping(&bounds, |item| {
         let other = FaceId(item);
-        if other != face && face_box(mesh, item).overlaps(&bounds) && cross(&mine, &corners(other)) {
+        if other != face && face_box(mesh, item).overlaps(&bounds) && cross(&mine, &corners(mesh, other)) {
             found = Some(other);
         }
         found.is_none()

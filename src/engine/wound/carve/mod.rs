@@ -103,7 +103,6 @@ pub fn carve(place: &mut Place<'_>, line: Line) -> Result<Carved, Rejection> {
     let widths = opening::Widths::along(place, &line)?;
     let inward = gutter::inward(place, &line, &widths.range);
     let slit = slit::slit(place.mesh, &line, &widths.range)?;
-    slit.faces.iter().for_each(|f| place.bvh.update(f.0, &|f| super::merge::face_box(place.mesh, f)));
     let mut carved = widths.start(line, &slit);
     let opening = opening::Opening::make(place, &mut carved)?;
     gutter::dig(place, &mut carved, opening, &slit, &inward)?;

@@ -14,6 +14,8 @@
 //! (1 − r/ρ). With ρ at least four times the COD this squeezes nothing to less than 7/8 of its size; where the triangles are larger
 //! than ρ, and one still turns over, ρ grows, and if that does not help the opening narrows where it would.
 
+use std::cmp::Ordering;
+use std::collections::hash_map::Entry;
 use std::ops::RangeInclusive;
 
 use glam::DVec3;
@@ -25,7 +27,6 @@ use crate::engine::wound::merge::{Line, face_box};
 use crate::geometry::predicates::facing;
 use crate::mesh::{FaceId, NodeId};
 use crate::report::Rejection;
-use std::cmp::Ordering;
 
 /// How far the opening is spread, in CODs; the next is tried where a face folds over.
 const SPREADS: [f64; 4] = [4.0, 8.0, 16.0, 32.0];
@@ -138,14 +139,14 @@ impl Opening {
         Ok(opening)
     }
 
-    /// Halves the opening at some nodes.
+    /// Narrows the opening to a quarter at some nodes.
     pub fn narrow(
         &mut self,
         place: &mut Place<'_>,
         carved: &mut Carved,
         nodes: &[usize],
     ) -> Result<(), Rejection> {
-        nodes.iter().for_each(|&i| self.share[i] *= 0.5);
+        nodes.iter().for_each(|&i| self.share[i] *= 0.25);
         self.settle(place, carved)
     }
 
@@ -241,9 +242,9 @@ impl Spread {
             next += 1;
             for (face, corner) in place.mesh.fan(from.node) {
                 for node in [1, 2].map(|k| place.mesh.face(face).nodes[(corner + k) % 3]) {
-                    if !at.contains_key(&node) {
+                    if let Entry::Vacant(entry) = at.entry(node) {
                         let reached = spread.reach(place, carved, radius, left, node, from.along);
-                        at.insert(node, if reached { spread.near.len() - 1 } else { usize::MAX });
+                        entry.insert(if reached { spread.near.len() - 1 } else { usize::MAX });
                     }
                 }
             }
@@ -328,7 +329,7 @@ impl Spread {
             }
         }
         let mesh = &*place.mesh;
-        self.faces.iter().for_each(|(f, _)| place.bvh.update(f.0, &|f| face_box(mesh, f)));
+        place.bvh.update(self.faces.iter().map(|f| f.0.0), &|f| face_box(mesh, f));
     }
 }
 

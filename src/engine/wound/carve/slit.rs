@@ -23,8 +23,6 @@ pub struct Slit {
     pub right_edges: Vec<EdgeId>,
     /// The faces beside the right rim's edges.
     pub right_faces: Vec<FaceId>,
-    /// The faces that changed hands.
-    pub faces: Vec<FaceId>,
 }
 
 /// Slits the part of the line between two of its nodes, which stay closed.
@@ -43,9 +41,6 @@ pub fn slit(mesh: &mut Mesh, line: &Line, range: &RangeInclusive<usize>) -> Resu
     for (i, fan) in fans.iter().enumerate() {
         slit.right[i + 1] = double_node(mesh, slit.left[i + 1], fan);
     }
-    slit.faces = fans.iter().flatten().map(|f| f.0).collect();
-    slit.faces.sort_unstable();
-    slit.faces.dedup();
     part_edges(mesh, &mut slit);
     for (i, fan) in fans.iter().enumerate() {
         rename_spokes(mesh, slit.left[i + 1], slit.right[i + 1], fan);
