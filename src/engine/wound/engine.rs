@@ -153,11 +153,14 @@ fn control_buffers(control: &Control) -> [Buffer; 2] {
     mode.push_u32(0, &[control.mode as u32, u32::from(control.pending.is_some())]);
     let mut settings = Buffer::new("settings", "s", Scalar::F64, 1);
     for (i, value) in (0u32..).zip(SETTINGS.iter().map(|(name, _)| control.settings.get(*name))) {
-        settings.push_f64(i, &[match value {
-            Some(Value::Number(v)) => *v,
-            Some(Value::Switch(on)) => f64::from(u8::from(*on)),
-            None => f64::NAN,
-        }]);
+        settings.push_f64(
+            i,
+            &[match value {
+                Some(Value::Number(v)) => *v,
+                Some(Value::Switch(on)) => f64::from(u8::from(*on)),
+                None => f64::NAN,
+            }],
+        );
     }
     let [x, y] = control.pending.unwrap_or([f64::NAN; 2]);
     settings.push_f64(SETTINGS.len() as u32, &[x]);

@@ -30,6 +30,8 @@ pub struct Sum {
     pub random_two_hits: usize,
     /// Those of them that were applied.
     pub random_applied: usize,
+    /// Those that were rejected, by reason.
+    pub rejected: BTreeMap<String, usize>,
 }
 
 /// A broken invariant, or a panic.
@@ -105,6 +107,26 @@ impl StabilityReport {
         }
     }
 
+    /// What became of the cuts, all of them and by kind.
+    fn outcomes(&self) -> Table {
+        let columns: Vec<&str> =
+            ["outcome", "cuts"].into_iter().chain(self.kinds.iter().map(|kind| kind.name.as_str())).collect();
+        let whole =
+            [("  snapped", self.snapped), ("  narrowed", self.narrowed), ("  shallowed", self.shallowed)];
+        let whole = whole.map(|(name, count)| vec![name.to_owned(), count.to_string()]);
+        let by_kind = |name: String, all: usize, of: &dyn Fn(&Sum) -> usize| {
+            let kinds = self.kinds.iter().map(|kind| of(kind).to_string());
+            [name, all.to_string()].into_iter().chain(kinds).collect()
+        };
+        let rejected = self.rejected.iter().map(|(reason, all)| {
+            by_kind(format!("rejected: {reason}"), *all, &|sum| {
+                sum.rejected.get(reason).copied().unwrap_or(0)
+            })
+        });
+        let applied = by_kind("applied".into(), self.applied, &|sum| sum.applied);
+        table("Outcomes", &columns, [applied].into_iter().chain(whole).chain(rejected))
+    }
+
     /// Writes the scripts of all findings into a folder.
     pub fn save_findings(&self, folder: &Path) -> Result<(), AssetError> {
         self.findings.iter().try_for_each(|finding| finding.reproduction.save(folder))
@@ -117,20 +139,7 @@ impl StabilityReport {
             table(title, &columns, sums.iter().map(Sum::cells))
         };
         let title = format!("{} cuts, seed {}", self.cuts, self.seed);
-        let outcomes = [
-            ("applied", self.applied),
-            ("  snapped", self.snapped),
-            ("  narrowed", self.narrowed),
-            ("  shallowed", self.shallowed),
-        ];
-        let outcomes = outcomes.map(|(name, count)| (name.to_owned(), count));
-        let rejected = self.rejected.iter().map(|(reason, count)| (format!("rejected: {reason}"), *count));
-        let rows = outcomes.into_iter().chain(rejected).map(|(name, count)| vec![name, count.to_string()]);
-        vec![
-            sums(&title, "scene", &self.scenes),
-            sums("By kind", "kind", &self.kinds),
-            table("Outcomes", &["outcome", "cuts"], rows),
-        ]
+        vec![sums(&title, "scene", &self.scenes), sums("By kind", "kind", &self.kinds), self.outcomes()]
     }
 }
 
@@ -176,6 +185,7 @@ impl Sum {
             applied: all.applied,
             random_two_hits: random.two_hits,
             random_applied: random.applied,
+            rejected: all.rejected.clone(),
         }
     }
 

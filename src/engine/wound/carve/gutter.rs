@@ -252,7 +252,12 @@ fn keep_clear(
 }
 
 /// The inner nodes of the links among `suspects` that cross something, and of the links that they cross.
-fn crossing_nodes(place: &Place<'_>, carved: &Carved, links: &[Vec<FaceId>], suspects: &[usize]) -> Vec<usize> {
+fn crossing_nodes(
+    place: &Place<'_>,
+    carved: &Carved,
+    links: &[Vec<FaceId>],
+    suspects: &[usize],
+) -> Vec<usize> {
     let mut nodes = Vec::new();
     for &i in suspects {
         let link = Link::new(place, carved, links, i);
@@ -387,7 +392,11 @@ impl Link {
     fn crossed_links(&self, place: &Place<'_>, carved: &Carved, links: &[Vec<FaceId>]) -> Vec<usize> {
         // A neighbour shares the spoke itself, so only its far end counts.
         let apart = |j: usize| {
-            let (spoke, shared) = if j < self.index { (&self.spokes[0], self.index) } else { (&self.spokes[1], self.index + 1) };
+            let (spoke, shared) = if j < self.index {
+                (&self.spokes[0], self.index)
+            } else {
+                (&self.spokes[1], self.index + 1)
+            };
             let ends = [j, j + 1].into_iter().filter(|&k| k != shared);
             let is_before = |s: &Spoke| ends.clone().all(|k| s.is_before_spoke(place, &carved.opened[k]));
             spoke.as_ref().is_some_and(is_before)
