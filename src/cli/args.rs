@@ -30,6 +30,7 @@ pub(super) enum Command {
     Reduce(Reduce),
     Diff(Diff),
     Check(Check),
+    Measure(Measure),
     /// List the scenes that are made by code
     Scenes,
     /// Say what the program and the machine are
@@ -208,6 +209,64 @@ pub(super) struct Check {
     pub(super) mesh: String,
     #[command(flatten)]
     pub(super) json: Json,
+}
+
+/// Measure what cuts cost, and whether anything breaks
+#[derive(Debug, clap::Args)]
+pub(super) struct Measure {
+    #[command(subcommand)]
+    pub(super) what: Measured,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Measured {
+    /// The thesis's eighteen cuts, stage by stage, beside its figures (Lam 2016, Table 6.2)
+    Thesis {
+        /// The folder of their recordings
+        #[arg(value_name = "DIR", default_value = "recordings/wound", value_hint = ValueHint::DirPath)]
+        recordings: PathBuf,
+        /// Run each cut so many times [default: 100; quick: 10]
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+        repeat: Option<u32>,
+        #[command(flatten)]
+        common: MeasureOptions,
+    },
+    /// The same cut and pick on meshes of 8 thousand to 4 million faces; quick: to 125 thousand
+    Scaling {
+        /// Run so many rounds over all meshes [default: 60; quick: 20]
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+        rounds: Option<u32>,
+        #[command(flatten)]
+        common: MeasureOptions,
+    },
+    /// Random and hostile cuts over the built-in scenes, every invariant looked at
+    Stability {
+        /// How many cuts [default: 100000; quick: 2000]
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000_000))]
+        cuts: Option<u32>,
+        /// What they are drawn from
+        #[arg(long, value_name = "S", default_value_t = 1)]
+        seed: u64,
+        /// How many scenes at a time; the answer does not depend on it [default: as many as there are processors]
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+        jobs: Option<u16>,
+        /// Write a script for each finding into this folder
+        #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+        findings: Option<PathBuf>,
+        #[command(flatten)]
+        common: MeasureOptions,
+    },
+}
+
+/// What every measurement can be asked for.
+#[derive(Debug, clap::Args)]
+pub(super) struct MeasureOptions {
+    /// Less of it
+    #[arg(long)]
+    pub(super) quick: bool,
+    /// Write the figures as JSON
+    #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
+    pub(super) json: Option<Target>,
 }
 
 /// An answer as JSON, for commands with little to say.

@@ -17,6 +17,7 @@ mod failure;
 mod info;
 mod json;
 mod man;
+mod measure;
 mod pack;
 mod place;
 mod reduce;
@@ -82,6 +83,7 @@ fn dispatch(command: Command, console: &mut Console<'_>) -> Done {
         Command::Reduce(typed) => reduce::run(&typed, console),
         Command::Diff(typed) => diff::run(&typed, console),
         Command::Check(typed) => check::run(&typed, console),
+        Command::Measure(typed) => measure::run(&typed, console),
         Command::Scenes => scenes::run(console),
         Command::Doctor => doctor::run(console),
         Command::Schema(typed) => schema::run(&typed, console),

@@ -1,0 +1,121 @@
+//! `lancet measure`: what cuts cost, and whether anything breaks.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use serde::Serialize;
+
+use super::args::{Measure, MeasureOptions, Measured};
+use super::console::Channel;
+use super::failure::Failure;
+use super::table::TextTable;
+use super::verify::jobs;
+use super::{Console, Done, Status, json};
+use crate::measure::stability::report::StabilityFinding;
+use crate::measure::stability::{self, StabilityReport};
+use crate::measure::{MeasureError, scaling, thesis};
+use crate::report::Table;
+
+pub(super) fn run(typed: &Measure, console: &mut Console<'_>) -> Done {
+    match &typed.what {
+        Measured::Thesis { recordings, repeat, common } => {
+            let repeat = or_else(*repeat, common, [100, 10]);
+            let report = showing(console, |told| thesis::measure(recordings, repeat, told))?;
+            answer(&report, &report.tables(), common, console)
+        }
+        Measured::Scaling { rounds, common } => {
+            let rounds = or_else(*rounds, common, [60, 20]);
+            let sizes = if common.quick { &scaling::QUICK[..] } else { &scaling::SIZES };
+            let report = showing(console, |told| scaling::measure(sizes, rounds, told))?;
+            answer(&report, &report.tables(), common, console)
+        }
+        Measured::Stability { cuts, seed, jobs: threads, findings, common } => {
+            let cuts = or_else(*cuts, common, [100_000, 2_000]);
+            let options = stability::Options { cuts, seed: *seed, jobs: jobs(*threads) };
+            let report = showing(console, |told| stability::measure(&options, told))?;
+            answer(&report, &report.tables(), common, console)?;
+            broken(&report, findings.as_deref(), common, console)
+        }
+    }
+}
+
+/// What was typed, or what is usual, or what is quick.
+fn or_else(typed: Option<u32>, common: &MeasureOptions, [usual, quick]: [usize; 2]) -> usize {
+    typed.map_or(if common.quick { quick } else { usual }, |n| n as usize)
+}
+
+/// Measures, and shows how far it is.
+fn showing<T>(
+    console: &mut Console<'_>,
+    measure: impl FnOnce(crate::measure::Progress<'_>) -> Result<T, MeasureError>,
+) -> Result<T, Failure> {
+    let work = Mutex::new(console.err.work());
+    let told = |done: usize, of: usize, what: &str| {
+        work.lock().unwrap_or_else(PoisonError::into_inner).show(format_args!("{done} of {of}, {what}"));
+    };
+    measure(&told).map_err(Failure::new)
+}
+
+fn answer(
+    report: &impl Serialize,
+    tables: &[Table],
+    common: &MeasureOptions,
+    console: &mut Console<'_>,
+) -> Done {
+    json::write(report, common.json.as_ref(), console)?;
+    let to = json::text([&common.json], console);
+    tables.iter().try_for_each(|table| show(table, to))?;
+    Ok(Status::Verified)
+}
+
+/// A table of figures: all but the first column stand to the right.
+fn show(table: &Table, to: &mut Channel<'_>) -> io::Result<()> {
+    writeln!(to, "{}", to.faint(&table.title))?;
+    let head = |(i, head): (usize, &String)| if i == 0 { head.clone() } else { format!(">{head}") };
+    let heads: Vec<String> = table.columns.iter().enumerate().map(head).collect();
+    let mut text = TextTable::new(&heads.iter().map(String::as_str).collect::<Vec<_>>());
+    table.rows.iter().for_each(|row| text.row(row.cells.iter()));
+    text.write(to)?;
+    writeln!(to)
+}
+
+/// The findings of a stability run, and where their scripts are.
+fn broken(
+    report: &StabilityReport,
+    folder: Option<&Path>,
+    common: &MeasureOptions,
+    console: &mut Console<'_>,
+) -> Done {
+    if let Some(folder) = folder {
+        report.save_findings(folder)?;
+    }
+    let to = json::text([&common.json], console);
+    report.findings.iter().try_for_each(|found| finding(report, found, folder, to))?;
+    let text = format!("{} findings in {} cuts", report.findings.len(), report.cuts);
+    let sound = report.findings.is_empty();
+    writeln!(to, "{}", if sound { to.good(text) } else { to.bad(text) })?;
+    Ok(if sound { Status::Verified } else { Status::Diverged })
+}
+
+fn finding(
+    report: &StabilityReport,
+    found: &StabilityFinding,
+    folder: Option<&Path>,
+    to: &mut Channel<'_>,
+) -> io::Result<()> {
+    let label = to.bad("finding:");
+    let StabilityFinding { scene, part, cut, stage, check, .. } = found;
+    let culprits: String = check.culprits.iter().map(|culprit| format!(" {culprit}")).collect();
+    let seed = report.seed;
+    writeln!(
+        to,
+        "{label} seed {seed}, scene {scene}, part {part}, cut {cut}, {stage}/{}: {}{culprits}",
+        check.name, check.detail
+    )?;
+    let path: Option<PathBuf> = folder.map(|folder| folder.join(found.file()));
+    match path {
+        Some(path) => writeln!(to, "  {}", path.display()),
+        None => writeln!(to, "  its script is in the JSON answer, or in the folder that --findings names"),
+    }
+}
