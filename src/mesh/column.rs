@@ -114,6 +114,14 @@ impl<T: Copy + PartialEq> Column<T> {
         self.data.truncate(start);
     }
 
+    /// Takes back what was written since a mark of the open transaction.
+    pub(super) fn rollback_to(&mut self, mark: ColumnMark) {
+        for (index, old) in self.log.drain(mark.log..).rev() {
+            self.data[index as usize] = old;
+        }
+        self.data.truncate(mark.len);
+    }
+
     pub(super) fn commit(&mut self) -> ColumnPatch<T> {
         let start = self.start.take().unwrap_or(self.data.len());
         // The first entry of an element holds its value before the transaction: a stable sort keeps it in front.

@@ -48,6 +48,7 @@ impl Patch {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Mark {
     positions: ColumnMark,
+    anchors: ColumnMark,
     vertices: ColumnMark,
     edges: ColumnMark,
     faces: ColumnMark,
@@ -85,6 +86,15 @@ impl Mesh {
         self.faces.rollback();
     }
 
+    /// Takes back everything since a mark, bit for bit; the transaction stays open.
+    pub fn rollback_to(&mut self, mark: Mark) {
+        self.positions.rollback_to(mark.positions);
+        self.anchors.rollback_to(mark.anchors);
+        self.vertices.rollback_to(mark.vertices);
+        self.edges.rollback_to(mark.edges);
+        self.faces.rollback_to(mark.faces);
+    }
+
     /// Closes the transaction and keeps what it did.
     pub fn commit(&mut self) -> Patch {
         Patch {
@@ -118,6 +128,7 @@ impl Mesh {
     pub fn mark(&self) -> Mark {
         Mark {
             positions: self.positions.mark(),
+            anchors: self.anchors.mark(),
             vertices: self.vertices.mark(),
             edges: self.edges.mark(),
             faces: self.faces.mark(),
@@ -128,6 +139,7 @@ impl Mesh {
     pub fn beginning(&self) -> Mark {
         Mark {
             positions: self.positions.beginning(),
+            anchors: self.anchors.beginning(),
             vertices: self.vertices.beginning(),
             edges: self.edges.beginning(),
             faces: self.faces.beginning(),

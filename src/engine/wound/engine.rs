@@ -223,7 +223,7 @@ fn begin_subdivision(state: &mut State, at: [f64; 2], into: u8) -> Start<Work> {
     match plan_subdivision(state, at, into) {
         Ok(plan) => {
             state.mesh.begin();
-            Start::Run(Work::Subdivide { plan, refined: Refined::default(), before: Before::default() })
+            Start::Run(Work::Subdivide { plan, refined: Refined::default(), before: Box::default() })
         }
         Err(rejection) => Start::Rejected(rejection),
     }

@@ -9,7 +9,7 @@ use crate::report::{Counter, Counters, Overlay, Row, Table};
 pub(super) fn show(state: &State, work: &Work) -> Shown {
     match work {
         Work::Cut(cut) => {
-            Shown { counters: counters(cut), tables: vec![links(cut)], overlays: overlays(cut) }
+            Shown { counters: counters(state, cut), tables: vec![links(cut)], overlays: overlays(cut) }
         }
         Work::Subdivide { refined, .. } => {
             let children = refined.children.iter().map(|c| c.len() as u64).sum();
@@ -20,7 +20,7 @@ pub(super) fn show(state: &State, work: &Work) -> Shown {
     }
 }
 
-fn counters(cut: &Cut) -> Counters {
+fn counters(state: &State, cut: &Cut) -> Counters {
     let chain = &cut.formed.chain;
     let mut configurations: BTreeMap<String, u64> = BTreeMap::new();
     for i in 0..chain.links.len() {
@@ -36,8 +36,10 @@ fn counters(cut: &Cut) -> Counters {
     count("snapped", cut.plane.as_ref().map_or(0, |p| p.snapped()));
     if !cut.carved.gutter.is_empty() {
         count("gutter_faces", cut.carved.gutter.len());
-        count("moved", cut.carved.moved.len());
+        let moved = cut.carved.moved.iter().filter(|(n, from)| state.mesh.position(*n) != *from).count();
+        count("moved", moved);
         count("narrowed", cut.carved.narrowed);
+        count("closed", cut.carved.closed);
         count("shallowed", cut.carved.shallowed);
     }
     counters

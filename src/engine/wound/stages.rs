@@ -110,7 +110,7 @@ fn run_carve(state: &mut State, cut: &mut Cut) -> Result<(), Rejection> {
 
 fn run_subdivision(state: &mut State, work: &mut Work) -> Result<(), Rejection> {
     let Work::Subdivide { plan, refined, before: then } = work else { return Ok(()) };
-    *then = before(&state.mesh, plan);
+    **then = before(&state.mesh, plan);
     *refined = state.mesh.refine(plan);
     if let Some(bvh) = &mut state.bvh {
         follow_refinement(&state.mesh, bvh, refined);

@@ -141,7 +141,7 @@ pub enum Work {
         /// What came of it.
         refined: Refined,
         /// The mesh before.
-        before: Before,
+        before: Box<Before>,
     },
 }
 

@@ -14,7 +14,7 @@ use rustc_hash::FxHashMap;
 
 use super::opening::Opening;
 use super::slit::Slit;
-use super::{Carved, Opened, Place, least};
+use super::{Carved, Obstacle, Opened, Place, least};
 use crate::engine::wound::merge::{Line, face_box};
 use crate::geometry::bvh::{Aabb, Ray};
 use crate::geometry::crossing::{Corners, cross};
@@ -63,13 +63,13 @@ fn in_plane(place: &Place<'_>, normal: DVec3, tangent: DVec3) -> DVec3 {
 }
 
 /// Makes the gutter, as deep as it can be.
-pub fn dig(
+pub(super) fn dig(
     place: &mut Place<'_>,
     carved: &mut Carved,
     opening: Opening,
     slit: &Slit,
     inward: &[DVec3],
-) -> Result<(), Rejection> {
+) -> Result<(), Obstacle> {
     bound_depths(place, carved, inward)?;
     let last = carved.opened.len() - 1;
     for i in 1..last {
@@ -90,7 +90,7 @@ pub fn dig(
 }
 
 /// Half of the tissue below each node, or the planned depth if that is less.
-fn bound_depths(place: &Place<'_>, carved: &mut Carved, inward: &[DVec3]) -> Result<(), Rejection> {
+fn bound_depths(place: &Place<'_>, carved: &mut Carved, inward: &[DVec3]) -> Result<(), Obstacle> {
     let last = carved.opened.len() - 1;
     for i in 1..last {
         let o = &mut carved.opened[i];
@@ -98,7 +98,7 @@ fn bound_depths(place: &Place<'_>, carved: &mut Carved, inward: &[DVec3]) -> Res
         o.depth = o.depth.min(tissue * SHARE_OF_TISSUE);
         if o.depth < least(place.largest) {
             let detail = format!("there are {tissue:e} of tissue below {}", o.left);
-            return Err(Rejection::new("no-tissue", detail));
+            return Err(Obstacle { nodes: vec![i], why: Rejection::new("no-tissue", detail) });
         }
     }
     Ok(())
@@ -213,7 +213,7 @@ fn keep_clear(
     mut opening: Opening,
     inward: &[DVec3],
     links: &[Vec<FaceId>],
-) -> Result<(), Rejection> {
+) -> Result<(), Obstacle> {
     let mut halved = vec![0usize; carved.opened.len()];
     let all: Vec<usize> = (0..links.len()).collect();
     let mut suspects = all.clone();
@@ -231,7 +231,7 @@ fn keep_clear(
             o.depth *= if halved[i] > PATIENCE { 0.25 } else { 0.5 };
             if halved[i] > ATTEMPTS || o.depth < least(place.largest) {
                 let detail = format!("however shallow, the gutter at {} crosses something", o.left);
-                return Err(Rejection::new("no-tissue", detail));
+                return Err(Obstacle { nodes: vec![i], why: Rejection::new("no-tissue", detail) });
             }
             place.mesh.set_position(o.bottom, o.at + inward[i] * o.depth);
         }

@@ -24,13 +24,13 @@ pub mod slit;
 use glam::DVec3;
 
 use super::chain::{At, Point};
-use super::merge::{Line, follow_refinement};
+use super::merge::{Line, face_box, follow_refinement};
 use super::plane::CutPlane;
 use super::settle::shape;
 use crate::geometry::bvh::Bvh;
 use crate::geometry::{double, ulp};
 use crate::mesh::refine::{FaceSplit, Refinement, Site};
-use crate::mesh::{EdgeId, FaceId, Mesh, NodeId};
+use crate::mesh::{EdgeId, FaceId, Mark, Mesh, NodeId};
 use crate::report::Rejection;
 
 /// An opening, or a depth, below this many ulps of the largest coordinate would be rounded away (DESIGN: eight).
@@ -65,7 +65,7 @@ pub struct Carved {
     pub opened: Vec<Opened>,
     /// Which of `opened` is at half the arc length.
     pub middle: usize,
-    /// Nodes beside the line that moved, and where they were.
+    /// Nodes beside the line that may have moved, and where they were.
     pub moved: Vec<(NodeId, DVec3)>,
     /// The skin faces that moved, and how they lay.
     pub stretched: Vec<(FaceId, [DVec3; 3])>,
@@ -73,6 +73,8 @@ pub struct Carved {
     pub gutter: Vec<FaceId>,
     /// Nodes whose opening is narrower than planned, because a face would fold over.
     pub narrowed: usize,
+    /// Nodes of the line that stay closed, because there is no room for an opening at or beyond them.
+    pub closed: usize,
     /// Bottom nodes that are less deep than planned, because there is less tissue.
     pub shallowed: usize,
 }
@@ -96,17 +98,55 @@ pub struct Opened {
     pub depth: f64,
 }
 
+/// Why a part of the line cannot be opened.
+pub(super) struct Obstacle {
+    /// The opened nodes at which it is, by index.
+    nodes: Vec<usize>,
+    /// What to say if nothing else can be opened either.
+    why: Rejection,
+}
+
 /// Carves along a merged line.
+///
+/// Where the tissue leaves no room for an opening, or none for a gutter, the line stays closed: then the longest part between such places
+/// is opened. Only where there is none the cut is rejected.
 pub fn carve(place: &mut Place<'_>, line: Line) -> Result<Carved, Rejection> {
     require_inside(place.mesh, &line)?;
     let line = with_middle(place, line)?;
-    let widths = opening::Widths::along(place, &line)?;
-    let inward = gutter::inward(place, &line, &widths.range);
-    let slit = slit::slit(place.mesh, &line, &widths.range)?;
-    let mut carved = widths.start(line, &slit);
+    let mut widths = opening::Widths::along(place, &line)?;
+    loop {
+        let mark = place.mesh.mark();
+        match open(place, &line, &widths) {
+            Ok(carved) => return Ok(carved),
+            Err(Obstacle { nodes, why }) => {
+                take_back(place, mark);
+                widths.close(nodes).ok_or(why)?;
+            }
+        }
+    }
+}
+
+/// Opens one part of a line.
+fn open(place: &mut Place<'_>, line: &Line, widths: &opening::Widths) -> Result<Carved, Obstacle> {
+    let inward = gutter::inward(place, line, &widths.range);
+    let slit =
+        slit::slit(place.mesh, line, &widths.range).map_err(|why| Obstacle { nodes: Vec::new(), why })?;
+    let mut carved = widths.start(line.clone(), &slit);
     let opening = opening::Opening::make(place, &mut carved)?;
     gutter::dig(place, &mut carved, opening, &slit, &inward)?;
     Ok(carved)
+}
+
+/// Takes an attempt back, in the mesh and in the hierarchy.
+fn take_back(place: &mut Place<'_>, mark: Mark) {
+    let touched = place.mesh.touched_since(mark);
+    place.mesh.rollback_to(mark);
+    let mesh = &*place.mesh;
+    let bounds = |f: u32| face_box(mesh, f);
+    place.bvh.truncate(mesh.face_count(), &bounds);
+    let around =
+        touched.nodes.into_iter().filter(|&n| mesh.has_node(n)).flat_map(|n| mesh.fan(n).map(|(f, _)| f.0));
+    place.bvh.update(around, &bounds);
 }
 
 /// A line that touches the boundary between its ends would tear it.

@@ -22,7 +22,7 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 
 use super::slit::Slit;
-use super::{Carved, Opened, Place, arc_lengths, least};
+use super::{Carved, Obstacle, Opened, Place, arc_lengths, least};
 use crate::engine::wound::merge::{Line, face_box};
 use crate::geometry::predicates::facing;
 use crate::mesh::{FaceId, NodeId};
@@ -55,8 +55,9 @@ pub struct Widths {
     depth: f64,
     s: Vec<f64>,
     half: Vec<f64>,
-    /// The part that opens: beyond it the width is less than what rounding leaves.
+    /// The part that opens: beyond it the width is less than what rounding leaves, or there is no room.
     pub range: RangeInclusive<usize>,
+    closed: usize,
 }
 
 impl Widths {
@@ -83,11 +84,35 @@ impl Widths {
             return short("opens nowhere");
         };
         let depth = depth / place.unit_cm;
-        Ok(Self { length, cod, depth, s, half, range: first - 1..=last + 1 })
+        Ok(Self { length, cod, depth, s, half, range: first - 1..=last + 1, closed: 0 })
+    }
+
+    /// Leaves some opened nodes closed and keeps the longest part between them; `None` if there is nothing left to open.
+    pub fn close(&mut self, nodes: Vec<usize>) -> Option<()> {
+        let (start, end) = (*self.range.start(), *self.range.end());
+        let mut stops: Vec<usize> =
+            nodes.into_iter().map(|i| start + i).filter(|i| (start + 1..end).contains(i)).collect();
+        if stops.is_empty() {
+            return None;
+        }
+        stops.extend([start, end]);
+        stops.sort_unstable();
+        stops.dedup();
+        let parts = stops.windows(2).filter(|w| w[1] - w[0] >= 2);
+        let longest =
+            parts.max_by(|a, b| (self.s[a[1]] - self.s[a[0]]).total_cmp(&(self.s[b[1]] - self.s[b[0]])))?;
+        self.closed += (end - start) - (longest[1] - longest[0]);
+        self.range = longest[0]..=longest[1];
+        // Towards a place that stays closed the opening tapers.
+        for i in self.range.clone() {
+            let reach = (self.s[i] - self.s[longest[0]]).min(self.s[longest[1]] - self.s[i]);
+            self.half[i] = self.half[i].min(STEEPEST * reach);
+        }
+        Some(())
     }
 
     /// The incision before anything moved.
-    pub fn start(self, line: Line, slit: &Slit) -> Carved {
+    pub fn start(&self, line: Line, slit: &Slit) -> Carved {
         let (start, end) = (*self.range.start(), *self.range.end());
         let opened = (start..=end).map(|i| Opened {
             at: DVec3::ZERO,
@@ -102,7 +127,16 @@ impl Widths {
         let nearest = |&a: &usize, &b: &usize| (self.s[a] - half).abs().total_cmp(&(self.s[b] - half).abs());
         let middle = (start..=end).min_by(nearest).unwrap_or(start) - start;
         let (length, cod, depth) = (self.length, self.cod, self.depth);
-        Carved { opened: opened.collect(), line, length, cod, depth, middle, ..Carved::default() }
+        Carved {
+            opened: opened.collect(),
+            line,
+            length,
+            cod,
+            depth,
+            middle,
+            closed: self.closed,
+            ..Carved::default()
+        }
     }
 }
 
@@ -127,13 +161,15 @@ pub struct Opening {
 
 impl Opening {
     /// Moves the rims apart, and the neighbourhood with them.
-    pub fn make(place: &mut Place<'_>, carved: &mut Carved) -> Result<Self, Rejection> {
+    pub(super) fn make(place: &mut Place<'_>, carved: &mut Carved) -> Result<Self, Obstacle> {
         for o in &mut carved.opened {
             o.at = place.mesh.position(o.left);
         }
         let left = left_direction(place, carved);
         let planned = carved.opened.iter().map(|o| o.half_width).collect();
         let spread = Spread::fitting(place, carved, left);
+        carved.moved =
+            spread.near[2 * (carved.opened.len() - 2)..].iter().map(|n| (n.node, n.from)).collect();
         carved.stretched = spread.faces.iter().map(|&(f, _)| (f, place.mesh.triangle(f))).collect();
         let mut opening = Self { spread, left, planned };
         opening.settle(place, carved)?;
@@ -141,12 +177,12 @@ impl Opening {
     }
 
     /// Narrows the opening to a quarter at some nodes.
-    pub fn narrow(
+    pub(super) fn narrow(
         &mut self,
         place: &mut Place<'_>,
         carved: &mut Carved,
         nodes: &[usize],
-    ) -> Result<(), Rejection> {
+    ) -> Result<(), Obstacle> {
         self.shrink(carved, nodes, 0.25);
         self.settle(place, carved)
     }
@@ -166,29 +202,34 @@ impl Opening {
     /// Makes the opening such that no face folds over, and moves what is to move.
     ///
     /// A sliver folds over where the displacement bends along it: it is straightened first. Where that does not help the opening narrows.
-    fn settle(&mut self, place: &mut Place<'_>, carved: &mut Carved) -> Result<(), Rejection> {
+    fn settle(&mut self, place: &mut Place<'_>, carved: &mut Carved) -> Result<(), Obstacle> {
+        let mut blamed = Vec::new();
         for _ in 0..=HALVINGS {
             let mut shifts = self.spread.shifts(carved);
             let faults = self.spread.straighten(carved, self.left, &mut shifts);
             if faults.is_empty() {
                 return self.finish(place, carved, &shifts);
             }
-            let mut blamed: Vec<usize> = faults.iter().flat_map(|&f| self.spread.blame(carved, f)).collect();
+            blamed = faults.iter().flat_map(|&f| self.spread.blame(carved, f)).collect();
             blamed.sort_unstable();
             blamed.dedup();
             self.shrink(carved, &blamed, 0.5);
         }
-        Err(Rejection::new("fold", "a face beside the line folds over however little the cut opens"))
+        let why = Rejection::new("fold", "a face beside the line folds over however little the cut opens");
+        Err(Obstacle { nodes: blamed, why })
     }
 
-    fn finish(&self, place: &mut Place<'_>, carved: &mut Carved, shifts: &[f64]) -> Result<(), Rejection> {
+    fn finish(&self, place: &mut Place<'_>, carved: &mut Carved, shifts: &[f64]) -> Result<(), Obstacle> {
         let narrower =
             carved.opened.iter().zip(&self.planned).filter(|(o, planned)| o.half_width != **planned);
         carved.narrowed = narrower.count();
-        if carved.opened.iter().any(|o| o.left != o.right && 2.0 * o.half_width < least(place.largest)) {
-            return Err(Rejection::new("fold", "the tissue beside the line is too narrow for it to open"));
+        let too_narrow = |o: &Opened| o.left != o.right && 2.0 * o.half_width < least(place.largest);
+        let nodes: Vec<usize> = (0..carved.opened.len()).filter(|&i| too_narrow(&carved.opened[i])).collect();
+        if !nodes.is_empty() {
+            let why = Rejection::new("fold", "the tissue beside the line is too narrow for it to open");
+            return Err(Obstacle { nodes, why });
         }
-        self.spread.apply(place, carved, self.left, shifts);
+        self.spread.apply(place, self.left, shifts);
         Ok(())
     }
 }
@@ -353,14 +394,9 @@ impl Spread {
         near.flat_map(|n| [n.along.0, n.along.0 + 1]).filter(|&k| k > 0 && k < last).collect()
     }
 
-    fn apply(&self, place: &mut Place<'_>, carved: &mut Carved, left: DVec3, shifts: &[f64]) {
-        let rims = 2 * (carved.opened.len() - 2);
-        carved.moved.clear();
-        for (i, (near, shift)) in self.near.iter().zip(shifts).enumerate() {
+    fn apply(&self, place: &mut Place<'_>, left: DVec3, shifts: &[f64]) {
+        for (near, shift) in self.near.iter().zip(shifts) {
             let to = near.from + left * *shift;
-            if i >= rims && to != near.from {
-                carved.moved.push((near.node, near.from));
-            }
             if place.mesh.position(near.node) != to {
                 place.mesh.set_position(near.node, to);
             }
