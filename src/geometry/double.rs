@@ -92,6 +92,16 @@ pub fn dot(a: DoubleVec, b: DoubleVec) -> Double {
     a[0].mul(b[0]).add(a[1].mul(b[1])).add(a[2].mul(b[2]))
 }
 
+/// `origin` + Σ weightᵢ (pointᵢ − origin), rounded once.
+pub fn blend<const N: usize>(origin: DVec3, parts: [(DVec3, f64); N]) -> DVec3 {
+    let mut sum = difference(origin, DVec3::ZERO);
+    for (point, weight) in parts {
+        let step = difference(point, origin);
+        sum = [0, 1, 2].map(|k| sum[k].add(step[k].mul(Double { high: weight, low: 0.0 })));
+    }
+    rounded(sum)
+}
+
 /// A vector of the nearest floats.
 #[inline]
 pub fn rounded(a: DoubleVec) -> DVec3 {

@@ -201,6 +201,11 @@ impl Search<'_> {
     fn out_of_face(&mut self, at: u32, face: FaceId) {
         let f = *self.mesh.face(face);
         let sides = f.nodes.map(|n| self.side(n));
+        if sides == [Ordering::Equal; 3] {
+            // All of the face lies in the plane: to its corners, from where the line goes on along the border.
+            f.nodes.iter().for_each(|&n| self.go(at, Point::node(self.mesh, n), face));
+            return;
+        }
         for i in 0..3 {
             let j = (i + 1) % 3;
             if sides[i] != Ordering::Equal && sides[i] == sides[j].reverse() {

@@ -43,7 +43,7 @@ pub fn resolve(state: &mut State, pick: Pick) -> Result<Picked, Rejection> {
                 return resolve_node(&state.mesh, nodes[usize::from(t == 1.0)]);
             }
             let [a, b] = nodes.map(|n| state.mesh.position(n));
-            let position = a + (b - a) * t;
+            let position = double::blend(a, [(b, t)]);
             Ok(Picked {
                 through: position,
                 point: Point { at: At::Edge(edge), position, weights: [1.0 - t, t, 0.0] },
@@ -82,7 +82,7 @@ fn resolve_face(state: &mut State, face: FaceId, u: f64, v: f64) -> Result<Picke
         return resolve(state, Pick::Edge(edge, if along { t } else { 1.0 - t }));
     }
     let [a, b, c] = state.mesh.triangle(face);
-    let position = a * weights[0] + b * weights[1] + c * weights[2];
+    let position = double::blend(a, [(b, u), (c, v)]);
     Ok(Picked { through: position, point: Point { at: At::Face(face), position, weights } })
 }
 
@@ -185,7 +185,7 @@ impl Hit {
         let edge = mesh.face(self.face).edges[side];
         let [a, b] = mesh.edge(edge).nodes.map(|n| mesh.position(n));
         let t = along_edge(a, b, eye, through);
-        let position = (a + (b - a) * t).clamp(a.min(b), a.max(b));
+        let position = double::blend(a, [(b, t)]).clamp(a.min(b), a.max(b));
         Point { at: At::Edge(edge), position, weights: [1.0 - t, t, 0.0] }
     }
 }
@@ -213,7 +213,7 @@ pub fn in_face(mesh: &Mesh, face: FaceId, eye: DVec3, through: DVec3) -> Point {
     let volumes = [volume(1), volume(2), volume(0)];
     let weights = volumes.map(|v| v / (volumes[0] + volumes[1] + volumes[2]));
     let [a, b, c] = corners;
-    let position = a + (b - a) * weights[1] + (c - a) * weights[2];
+    let position = double::blend(a, [(b, weights[1]), (c, weights[2])]);
     let [lo, hi] = [a.min(b).min(c), a.max(b).max(c)];
     Point { at: At::Face(face), position: position.clamp(lo, hi), weights }
 }

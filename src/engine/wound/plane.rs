@@ -84,8 +84,11 @@ impl CutPlane {
     pub fn crossing(&self, a: DVec3, b: DVec3) -> (f64, DVec3) {
         let (ha, hb) = (self.height(a).value(), self.height(b).value());
         let t = (ha / (ha - hb)).clamp(0.0, 1.0);
-        let position =
-            if t <= 0.5 { a + (b - a) * t } else { b + (a - b) * (hb / (hb - ha)).clamp(0.0, 1.0) };
+        let position = if t <= 0.5 {
+            double::blend(a, [(b, t)])
+        } else {
+            double::blend(b, [(a, (hb / (hb - ha)).clamp(0.0, 1.0))])
+        };
         (t, position.clamp(a.min(b), a.max(b)))
     }
 }

@@ -8,6 +8,8 @@
 
 use std::cmp::Ordering;
 
+use glam::DVec3;
+
 use super::chain::{At, Chain, Point};
 use super::form::{common_face, trace};
 use super::pattern::{Child, Shape, altitude};
@@ -82,7 +84,8 @@ fn place(mesh: &Mesh, plane: &mut CutPlane, end: &Point, resolution: f64) -> Res
     if a == b.reverse() {
         return Ok(*end);
     }
-    if let Some(node) = nodes.into_iter().find(|&n| mesh.position(n).distance(end.position) <= resolution) {
+    let is_near = |p: DVec3| p.distance(end.position) <= resolution && plane.distance(p) <= resolution;
+    if let Some(node) = nodes.into_iter().find(|&n| is_near(mesh.position(n))) {
         plane.snap(node);
         return Ok(Point::node(mesh, node));
     }
@@ -217,8 +220,12 @@ fn snap(
         At::Edge(edge) => snap_to_node(mesh, plane, edge, &chain.points[i], resolution),
         At::Face(face) => {
             let end = &mut ends[usize::from(i != 0)];
-            match onto_border(mesh, face, end, resolution) {
+            match onto_border(mesh, plane, face, end, resolution) {
                 Some(moved) => {
+                    // The line can only end at a node that counts as lying on the plane.
+                    if let At::Node(node) = moved.at {
+                        plane.snap(node);
+                    }
                     *end = moved;
                     true
                 }
@@ -241,15 +248,18 @@ fn snap_to_node(mesh: &Mesh, plane: &mut CutPlane, edge: EdgeId, point: &Point, 
     near.is_some_and(|n| plane.snap(n))
 }
 
-/// The node or edge of a face that a point inside of it was rounded onto.
-fn onto_border(mesh: &Mesh, face: FaceId, point: &Point, resolution: f64) -> Option<Point> {
+/// The node or edge of a face that a point inside of it was rounded onto. An edge only where the plane crosses it, or it lies in the plane.
+fn onto_border(mesh: &Mesh, plane: &CutPlane, face: FaceId, point: &Point, resolution: f64) -> Option<Point> {
     let f = mesh.face(face);
-    if let Some(&node) = f.nodes.iter().find(|&&n| mesh.position(n).distance(point.position) <= resolution) {
+    let is_near = |p: DVec3| p.distance(point.position) <= resolution && plane.distance(p) <= resolution;
+    if let Some(&node) = f.nodes.iter().find(|&&n| is_near(mesh.position(n))) {
         return Some(Point::node(mesh, node));
     }
     let near = f.edges.into_iter().find(|&e| {
-        let [a, b] = mesh.edge(e).nodes.map(|n| mesh.position(n));
-        distance_to_segment(point.position, a, b) <= resolution
+        let nodes = mesh.edge(e).nodes;
+        let [a, b] = nodes.map(|n| mesh.position(n));
+        let sides = nodes.map(|n| plane.side_of(mesh, n));
+        sides[0] == sides[1].reverse() && distance_to_segment(point.position, a, b) <= resolution
     })?;
     let [a, b] = mesh.edge(near).nodes.map(|n| mesh.position(n));
     let t = ((point.position - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);

@@ -28,7 +28,7 @@ use super::merge::{Line, follow_refinement};
 use super::plane::CutPlane;
 use super::settle::shape;
 use crate::geometry::bvh::Bvh;
-use crate::geometry::ulp;
+use crate::geometry::{double, ulp};
 use crate::mesh::refine::{FaceSplit, Refinement, Site};
 use crate::mesh::{EdgeId, FaceId, Mesh, NodeId};
 use crate::report::Rejection;
@@ -176,7 +176,8 @@ fn split_plan(mesh: &Mesh, edge: EdgeId, from: NodeId, t: f64) -> Option<Refinem
     let nodes = mesh.edge(edge).nodes;
     let t = if nodes[0] == from { t } else { 1.0 - t };
     let [a, b] = nodes.map(|n| mesh.position(n));
-    let point = Point { at: At::Edge(edge), position: a + (b - a) * t, weights: [1.0 - t, t, 0.0] };
+    let point =
+        Point { at: At::Edge(edge), position: double::blend(a, [(b, t)]), weights: [1.0 - t, t, 0.0] };
     let mut plan = Refinement { points: vec![(Site::Edge(edge, t), point.position)], faces: Vec::new() };
     for face in mesh.edge(edge).faces.into_iter().filter_map(FaceId::some) {
         let shape = shape(mesh, face, std::iter::once(&point));

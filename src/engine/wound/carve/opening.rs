@@ -10,8 +10,8 @@
 //! ```
 //!
 //! The thesis moves the rims alone, and a face thinner than the opening folds over. Here the opening is a displacement of the tissue: a
-//! point beside the line at distance r from it moves along û, away from the plane, by half the width at the nearest point of the line times
-//! (1 − r/ρ). With ρ at least four times the COD this squeezes nothing to less than 7/8 of its size; where the triangles are larger
+//! point beside the line at distance r from it moves along û, with the rim that it hangs on, by half the width at the nearest point of the
+//! line times (1 − r/ρ). With ρ at least four times the COD this squeezes nothing to less than 7/8 of its size; where the triangles are larger
 //! than ρ, and one still turns over, ρ grows, and if that does not help the opening narrows where it would.
 
 use std::cmp::Ordering;
@@ -32,6 +32,10 @@ use crate::report::Rejection;
 const SPREADS: [f64; 4] = [4.0, 8.0, 16.0, 32.0];
 /// How often the opening is halved where a face folds over before the cut is given up.
 const HALVINGS: usize = 48;
+/// How often the faces that fold over are straightened before the opening narrows.
+const STRAIGHTENINGS: usize = 24;
+/// How fast a narrowed opening may change along the line, in half widths a length.
+const STEEPEST: f64 = 0.25;
 
 /// Depth of a cut of length `length_cm`, cm.
 pub fn depth_cm(length_cm: f64) -> f64 {
@@ -119,8 +123,6 @@ pub struct Opening {
     spread: Spread,
     left: DVec3,
     planned: Vec<f64>,
-    /// What is left of each node's planned width.
-    share: Vec<f64>,
 }
 
 impl Opening {
@@ -131,10 +133,9 @@ impl Opening {
         }
         let left = left_direction(place, carved);
         let planned = carved.opened.iter().map(|o| o.half_width).collect();
-        let share = vec![1.0; carved.opened.len()];
         let spread = Spread::fitting(place, carved, left);
         carved.stretched = spread.faces.iter().map(|&(f, _)| (f, place.mesh.triangle(f))).collect();
-        let mut opening = Self { spread, left, planned, share };
+        let mut opening = Self { spread, left, planned };
         opening.settle(place, carved)?;
         Ok(opening)
     }
@@ -146,32 +147,48 @@ impl Opening {
         carved: &mut Carved,
         nodes: &[usize],
     ) -> Result<(), Rejection> {
-        nodes.iter().for_each(|&i| self.share[i] *= 0.25);
+        self.shrink(carved, nodes, 0.25);
         self.settle(place, carved)
     }
 
-    /// Halves the opening wherever a face would fold over, until none does, and moves what is to move.
+    /// Narrows the opening at some nodes, and around them so far that it stays smooth: where the width changes faster than the
+    /// place, the change itself would fold faces over.
+    fn shrink(&self, carved: &mut Carved, nodes: &[usize], factor: f64) {
+        nodes.iter().for_each(|&i| carved.opened[i].half_width *= factor);
+        for &i in nodes {
+            let (at, half) = (carved.opened[i].at, carved.opened[i].half_width);
+            for o in &mut carved.opened {
+                o.half_width = o.half_width.min(half + STEEPEST * at.distance(o.at));
+            }
+        }
+    }
+
+    /// Makes the opening such that no face folds over, and moves what is to move.
+    ///
+    /// A sliver folds over where the displacement bends along it: it is straightened first. Where that does not help the opening narrows.
     fn settle(&mut self, place: &mut Place<'_>, carved: &mut Carved) -> Result<(), Rejection> {
-        for round in 0..=HALVINGS {
-            for (o, (planned, share)) in carved.opened.iter_mut().zip(self.planned.iter().zip(&self.share)) {
-                o.half_width = planned * share;
+        for _ in 0..=HALVINGS {
+            let mut shifts = self.spread.shifts(carved);
+            let faults = self.spread.straighten(carved, self.left, &mut shifts);
+            if faults.is_empty() {
+                return self.finish(place, carved, &shifts);
             }
-            let faults = self.spread.faults(carved, self.left);
-            let Some(first) = faults.first() else { break };
-            if round == HALVINGS {
-                let detail = format!("{} folds over however little the cut opens", first.0);
-                return Err(Rejection::new("fold", detail));
-            }
-            let mut blamed: Vec<usize> = faults.iter().flat_map(|f| f.1.iter().copied()).collect();
+            let mut blamed: Vec<usize> = faults.iter().flat_map(|&f| self.spread.blame(carved, f)).collect();
             blamed.sort_unstable();
             blamed.dedup();
-            blamed.into_iter().for_each(|i| self.share[i] *= 0.5);
+            self.shrink(carved, &blamed, 0.5);
         }
-        carved.narrowed = self.share.iter().filter(|&&n| n < 1.0).count();
+        Err(Rejection::new("fold", "a face beside the line folds over however little the cut opens"))
+    }
+
+    fn finish(&self, place: &mut Place<'_>, carved: &mut Carved, shifts: &[f64]) -> Result<(), Rejection> {
+        let narrower =
+            carved.opened.iter().zip(&self.planned).filter(|(o, planned)| o.half_width != **planned);
+        carved.narrowed = narrower.count();
         if carved.opened.iter().any(|o| o.left != o.right && 2.0 * o.half_width < least(place.largest)) {
             return Err(Rejection::new("fold", "the tissue beside the line is too narrow for it to open"));
         }
-        self.spread.apply(place, carved, self.left);
+        self.spread.apply(place, carved, self.left, shifts);
         Ok(())
     }
 }
@@ -207,8 +224,8 @@ impl Spread {
     fn fitting(place: &Place<'_>, carved: &Carved, left: DVec3) -> Self {
         let mut best: Option<(usize, Self)> = None;
         for factor in SPREADS {
-            let spread = Self::over(place, carved, factor * carved.cod, left);
-            let folded = spread.faults(carved, left).len();
+            let spread = Self::over(place, carved, factor * carved.cod);
+            let folded = spread.faults(left, &spread.shifts(carved)).len();
             if best.as_ref().is_none_or(|b| folded < b.0) {
                 best = Some((folded, spread));
             }
@@ -219,8 +236,9 @@ impl Spread {
         best.map(|b| b.1).unwrap_or_default()
     }
 
-    /// Walks over the surface from both rims, as far as `radius` from the line.
-    fn over(place: &Place<'_>, carved: &Carved, radius: f64, left: DVec3) -> Self {
+    /// Walks over the surface from both rims at once, as far as `radius` from the line. Which side a node belongs to is which rim reaches it,
+    /// not which side of the plane it is on: a fold of an earlier cut that crosses the plane beside the line must not be torn.
+    fn over(place: &Place<'_>, carved: &Carved, radius: f64) -> Self {
         let mut spread = Self::default();
         let mut at: FxHashMap<NodeId, usize> = FxHashMap::default();
         let inner = 1..carved.opened.len() - 1;
@@ -243,7 +261,7 @@ impl Spread {
             for (face, corner) in place.mesh.fan(from.node) {
                 for node in [1, 2].map(|k| place.mesh.face(face).nodes[(corner + k) % 3]) {
                     if let Entry::Vacant(entry) = at.entry(node) {
-                        let reached = spread.reach(place, carved, radius, left, node, from.along);
+                        let reached = spread.reach(place, carved, radius, node, from);
                         entry.insert(if reached { spread.near.len() - 1 } else { usize::MAX });
                     }
                 }
@@ -253,29 +271,15 @@ impl Spread {
         spread
     }
 
-    /// Adds a node if it is near enough to the line to move.
-    fn reach(
-        &mut self,
-        place: &Place<'_>,
-        carved: &Carved,
-        radius: f64,
-        left: DVec3,
-        node: NodeId,
-        guess: (usize, f64),
-    ) -> bool {
+    /// Adds a node, reached from one that moves, if it is near enough to the line to move too; to the same side.
+    fn reach(&mut self, place: &Place<'_>, carved: &Carved, radius: f64, node: NodeId, from: Near) -> bool {
         let position = place.mesh.position(node);
-        let (along, distance) = nearest(&carved.opened, position, guess.0);
-        let share = 1.0 - distance / radius;
-        let side = match place.plane.side_of(place.mesh, node) {
-            Ordering::Equal => 0.0,
-            Ordering::Greater => 1.0,
-            Ordering::Less => -1.0,
-        };
-        // A node on the plane stays; so does the boundary, which is not the cut's to move.
-        if share <= 0.0 || side == 0.0 || place.mesh.is_boundary_node(node) {
+        let (along, distance) = nearest(&carved.opened, position, from.along.0);
+        let share = (1.0 - distance / radius) * from.share.signum();
+        // The boundary is not the cut's to move.
+        if distance >= radius || place.mesh.is_boundary_node(node) {
             return false;
         }
-        let share = share * side * left.dot(place.plane.unit()).signum();
         self.near.push(Near { node, from: position, along, share });
         true
     }
@@ -290,37 +294,70 @@ impl Spread {
         self.closed = self.faces.iter().map(|f| place.mesh.triangle(f.0)).collect();
     }
 
-    /// How far each node moves.
-    fn shifts(&self, carved: &Carved, left: DVec3) -> Vec<DVec3> {
+    /// How far each node moves to the left.
+    fn shifts(&self, carved: &Carved) -> Vec<f64> {
         let half = |k: usize| carved.opened.get(k).map_or(0.0, |o| o.half_width);
-        let shift = |n: &Near| {
-            left * (n.share * (half(n.along.0) * (1.0 - n.along.1) + half(n.along.0 + 1) * n.along.1))
-        };
+        let shift =
+            |n: &Near| n.share * (half(n.along.0) * (1.0 - n.along.1) + half(n.along.0 + 1) * n.along.1);
         self.near.iter().map(shift).collect()
     }
 
-    /// The faces that would fold over, and the opened nodes whose opening is to blame.
-    fn faults(&self, carved: &Carved, left: DVec3) -> Vec<(FaceId, Vec<usize>)> {
-        let shifts = self.shifts(carved, left);
-        let folds = |(&(face, corners), old): (&(FaceId, [usize; 3]), &[DVec3; 3])| {
-            let new = [0, 1, 2].map(|k| old[k] + shifts.get(corners[k]).copied().unwrap_or(DVec3::ZERO));
-            (facing(*old, new) != Ordering::Greater).then(|| (face, self.blame(carved, &corners)))
-        };
-        self.faces.iter().zip(&self.closed).filter_map(folds).collect()
+    /// The faces that fold over, as indices into `faces`.
+    fn faults(&self, left: DVec3, shifts: &[f64]) -> Vec<usize> {
+        (0..self.faces.len()).filter(|&f| self.folds(left, shifts, f)).collect()
     }
 
-    fn blame(&self, carved: &Carved, corners: &[usize; 3]) -> Vec<usize> {
+    fn folds(&self, left: DVec3, shifts: &[f64], face: usize) -> bool {
+        let (old, corners) = (self.closed[face], self.faces[face].1);
+        let new = [0, 1, 2].map(|k| old[k] + left * shifts.get(corners[k]).copied().unwrap_or(0.0));
+        facing(old, new) != Ordering::Greater
+    }
+
+    /// Moves the apex of each face that folds over with its base, as if they were one stiff piece, until no face folds over or it does not
+    /// help; gives the faces that still do. A rim's node takes its partner with it.
+    fn straighten(&self, carved: &mut Carved, left: DVec3, shifts: &mut [f64]) -> Vec<usize> {
+        let mut faults = self.faults(left, shifts);
+        for _ in 0..STRAIGHTENINGS {
+            if faults.is_empty() {
+                break;
+            }
+            faults.iter().for_each(|&f| self.stiffen(carved, shifts, f));
+            faults = self.faults(left, shifts);
+        }
+        faults
+    }
+
+    fn stiffen(&self, carved: &mut Carved, shifts: &mut [f64], face: usize) {
+        let (at, corners) = (self.closed[face], self.faces[face].1);
+        let base = |k: usize| at[(k + 1) % 3].distance_squared(at[(k + 2) % 3]);
+        let apex = (0..3).fold(0, |best, k| if base(k) > base(best) { k } else { best });
+        let (i, j) = ((apex + 1) % 3, (apex + 2) % 3);
+        let t = ((at[apex] - at[i]).dot(at[j] - at[i]) / base(apex)).clamp(0.0, 1.0);
+        let shift = |k: usize| shifts.get(corners[k]).copied().unwrap_or(0.0);
+        let value = shift(i) * (1.0 - t) + shift(j) * t;
+        let inner = carved.opened.len() - 2;
+        let Some(slot) = shifts.get_mut(corners[apex]) else { return };
+        if corners[apex] >= 2 * inner {
+            *slot = value;
+        } else if value * self.near[corners[apex]].share > 0.0 {
+            let i = corners[apex] % inner;
+            carved.opened[i + 1].half_width = value.abs();
+            (shifts[i], shifts[inner + i]) = (value.abs(), -value.abs());
+        }
+    }
+
+    /// The opened nodes whose opening moves a face.
+    fn blame(&self, carved: &Carved, face: usize) -> Vec<usize> {
         let last = carved.opened.len() - 1;
-        let places =
-            corners.iter().filter_map(|&c| self.near.get(c)).flat_map(|n| [n.along.0, n.along.0 + 1]);
-        places.filter(|&k| k > 0 && k < last).collect()
+        let near = self.faces[face].1.iter().filter_map(|&c| self.near.get(c));
+        near.flat_map(|n| [n.along.0, n.along.0 + 1]).filter(|&k| k > 0 && k < last).collect()
     }
 
-    fn apply(&self, place: &mut Place<'_>, carved: &mut Carved, left: DVec3) {
+    fn apply(&self, place: &mut Place<'_>, carved: &mut Carved, left: DVec3, shifts: &[f64]) {
         let rims = 2 * (carved.opened.len() - 2);
         carved.moved.clear();
-        for (i, (near, shift)) in self.near.iter().zip(self.shifts(carved, left)).enumerate() {
-            let to = near.from + shift;
+        for (i, (near, shift)) in self.near.iter().zip(shifts).enumerate() {
+            let to = near.from + left * *shift;
             if i >= rims && to != near.from {
                 carved.moved.push((near.node, near.from));
             }

@@ -20,7 +20,7 @@ pub(in super::super) fn carve(state: &State, cut: &Cut) -> Vec<Check> {
     vec![
         topology(mesh, &touched.faces),
         euler(mesh, &cut.before_carve),
-        volume(mesh, carved),
+        volume(state, carved),
         ends(mesh, carved),
         untouched(mesh, cut, &touched.nodes),
         width(state, carved),
@@ -29,27 +29,25 @@ pub(in super::super) fn carve(state: &State, cut: &Cut) -> Vec<Check> {
     ]
 }
 
-/// The change of volume, summed over the faces before and after, is what the moved faces swept plus the gutter's wedge.
-fn volume(mesh: &Mesh, carved: &Carved) -> Check {
+/// The change of volume, summed over the faces before and after, is what the moved faces swept plus the gutter's wedge: up to 1e-9 of
+/// them, and what rounding the coordinates leaves open.
+fn volume(state: &State, carved: &Carved) -> Check {
+    let mesh = &state.mesh;
     let origin = carved.opened.first().map_or(DVec3::ZERO, |o| o.at);
-    let (mut before_after, mut swept, mut size) = (0.0, 0.0, 0.0);
-    for &(face, old) in &carved.stretched {
-        let new = mesh.triangle(face);
-        let (v0, v1) = (sixfold_volume(origin, old), sixfold_volume(origin, new));
-        let s = sweep(old, new);
-        before_after += v1 - v0;
-        swept += s;
-        size += s.abs() + 1e-4 * (v0.abs() + v1.abs());
+    let skin =
+        carved.stretched.iter().map(|&(face, old)| (old, mesh.triangle(face), sixfold_volume(origin, old)));
+    let closed = |n| collapsed(carved, n);
+    let gutter =
+        carved.gutter.iter().map(|&face| (mesh.face(face).nodes.map(closed), mesh.triangle(face), 0.0));
+    let (mut grown, mut swept, mut allowed) = (0.0, 0.0, 0.0);
+    for (old, new, before) in skin.chain(gutter) {
+        let (after, sweep) = (sixfold_volume(origin, new), sweep(old, new));
+        let reach = new.iter().map(|p| p.distance(origin)).fold(0.0, f64::max);
+        grown += after - before;
+        swept += sweep;
+        allowed += 1e-9 * sweep.abs() + 1e-13 * reach * reach * reach + position_bound(state) * reach * reach;
     }
-    for &face in &carved.gutter {
-        let new = mesh.triangle(face);
-        let old = mesh.face(face).nodes.map(|n| collapsed(carved, n));
-        let (v, s) = (sixfold_volume(origin, new), sweep(old, new));
-        before_after += v;
-        swept += s;
-        size += s.abs() + 1e-4 * v.abs();
-    }
-    Check::at_most("volume", (before_after - swept).abs() / size.max(f64::MIN_POSITIVE), 1e-9)
+    Check::at_most("volume", (grown - swept).abs(), allowed)
 }
 
 /// Where a node of the gutter was when the cut was still closed.

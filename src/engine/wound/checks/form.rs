@@ -2,6 +2,8 @@
 
 use std::cmp::Ordering;
 
+use glam::DVec2;
+
 use super::position_bound;
 use crate::engine::wound::chain::{At, Chain, Point};
 use crate::engine::wound::plane::CutPlane;
@@ -106,17 +108,22 @@ fn edges(mesh: &Mesh, chain: &Chain, bound: f64) -> Check {
 /// Two ulps of f32 around the face's triangle in texture space.
 fn uvs(mesh: &Mesh, chain: &Chain) -> Check {
     let outside = |uv: glam::Vec2, face: FaceId| {
-        let corners = mesh.face(face).vertices.map(|v| mesh.vertex(v).uv.as_dvec2());
-        let size =
-            corners.iter().map(|c| c.abs().max_element()).fold(f32::MIN_POSITIVE as f64, f64::max) as f32;
-        let p = uv.as_dvec2();
-        let turn = (corners[1] - corners[0]).perp_dot(corners[2] - corners[0]).signum();
-        let beyond = (0..3).map(|i| {
-            let d = corners[(i + 1) % 3] - corners[i];
-            -(turn * d.perp_dot(p - corners[i])) / d.length().max(f64::MIN_POSITIVE)
-        });
-        beyond.fold(0.0, f64::max) / (size.next_up() - size) as f64
+        let corners = mesh.face(face).vertices.map(|v| mesh.vertex(v).uv);
+        let size = corners.iter().map(|c| c.abs().max_element()).fold(f32::MIN_POSITIVE, f32::max);
+        distance_outside(uv.as_dvec2(), corners.map(|c| c.as_dvec2())) / (size.next_up() - size) as f64
     };
     let ends = chain.links.iter().flat_map(|l| l.uv.map(|uv| outside(uv, l.face)));
     Check::at_most("uv-ulps", ends.fold(0.0, f64::max), 2.0)
+}
+
+/// How far a point is from a triangle of either orientation; 0 inside.
+fn distance_outside(p: DVec2, corners: [DVec2; 3]) -> f64 {
+    let side = |i: usize| (corners[(i + 1) % 3] - corners[i]).perp_dot(p - corners[i]);
+    let sides = [side(0), side(1), side(2)];
+    if sides.iter().all(|&s| s > 0.0) || sides.iter().all(|&s| s < 0.0) {
+        return 0.0;
+    }
+    let flat = |v: DVec2| v.extend(0.0);
+    let to_side = |i: usize| distance_to_segment(flat(p), flat(corners[i]), flat(corners[(i + 1) % 3]));
+    to_side(0).min(to_side(1)).min(to_side(2))
 }

@@ -4,10 +4,12 @@ use std::collections::BTreeMap;
 
 use glam::{DVec3, Vec2};
 
-use crate::engine::wound::{Mode, Pick, Scene, State, Wound, WoundEvent};
+use crate::engine::wound::carve::Carved;
+use crate::engine::wound::chain::Chain;
+use crate::engine::wound::{Cut, Mode, Pick, Scene, State, Work, Wound, WoundEvent};
 use crate::engine::{Engine, Part, Start};
 use crate::mesh::{IndexedMesh, Mesh};
-use crate::report::Outcome;
+use crate::report::{Outcome, Rejection};
 
 /// A sphere: an icosahedron whose faces are divided `n` times.
 pub(super) fn sphere(divisions: usize) -> IndexedMesh {
@@ -128,24 +130,58 @@ pub(super) fn run(state: &mut State, event: &WoundEvent) -> (Outcome, String) {
         Start::Rejected(r) => return (Outcome::Rejected, format!("{}: {}", r.reason, r.detail)),
         Start::Run(work) => work,
     };
-    for stage in Wound::STAGES {
-        if (stage.part)(&work) != Part::Run {
-            continue;
+    match through_stages(state, &mut work, event) {
+        Ok(()) => {
+            Wound::commit(state, &mut work);
+            (Outcome::Applied, String::new())
         }
-        if let Err(r) = (stage.run)(state, &mut work) {
+        Err(r) => {
             Wound::rollback(state, &mut work);
-            return (Outcome::Rejected, format!("{}: {}", r.reason, r.detail));
+            (Outcome::Rejected, format!("{}: {}", r.reason, r.detail))
         }
-        let broken: Vec<_> = (stage.check)(state, &work).into_iter().filter(|c| !c.ok).collect();
-        if !broken.is_empty() {
-            if let crate::engine::wound::Work::Cut(c) = &work {
-                eprintln!("{:#?}\n{:?}", c.formed.chain.points, c.formed.refinement);
-            }
-        }
+    }
+}
+
+fn through_stages(state: &mut State, work: &mut Work, event: &WoundEvent) -> Result<(), Rejection> {
+    for stage in Wound::STAGES.iter().filter(|s| (s.part)(work) == Part::Run).collect::<Vec<_>>() {
+        (stage.run)(state, work)?;
+        let broken: Vec<_> = (stage.check)(state, work).into_iter().filter(|c| !c.ok).collect();
         assert!(broken.is_empty(), "{} of {event:?}: {broken:#?}", stage.id);
     }
+    Ok(())
+}
+
+/// Runs work through its stages, which must apply.
+pub(super) fn applied(state: &mut State, work: &mut Work, event: &WoundEvent) {
+    if let Err(r) = through_stages(state, work, event) {
+        panic!("{event:?} is rejected: {r:?}");
+    }
+}
+
+/// A cut that must apply, with what its stages found out.
+fn cut_work(state: &mut State, from: Pick, to: Pick) -> Box<Cut> {
+    let event = WoundEvent::Cut { from, to };
+    let Start::Run(mut work) = Wound::start(state, &event, 0) else { panic!("{event:?} does not start") };
+    applied(state, &mut work, &event);
     Wound::commit(state, &mut work);
-    (Outcome::Applied, String::new())
+    match work {
+        Work::Cut(cut) => cut,
+        Work::Subdivide { .. } => panic!("a cut is no subdivision"),
+    }
+}
+
+/// FC's line of a cut that is not merged.
+pub(super) fn formed(state: &mut State, from: Pick, to: Pick) -> Chain {
+    let before = state.control.mode;
+    mode(state, Mode::Patch);
+    let chain = cut_work(state, from, to).formed.chain;
+    mode(state, before);
+    chain
+}
+
+/// What CI did.
+pub(super) fn carved(state: &mut State, from: Pick, to: Pick) -> Carved {
+    cut_work(state, from, to).carved
 }
 
 pub(super) fn cut(state: &mut State, from: Pick, to: Pick) -> (Outcome, String) {

@@ -45,7 +45,7 @@ fn stress(state: &mut State, seed: u64, cuts: usize) -> BTreeMap<String, usize> 
     let mut random = Random(seed);
     let mut outcomes = BTreeMap::new();
     for i in 0..cuts {
-        let a = 6.283 * random.unit();
+        let a = std::f64::consts::TAU * random.unit();
         run(
             state,
             &WoundEvent::Camera(CameraChange {
@@ -66,9 +66,6 @@ fn stress(state: &mut State, seed: u64, cuts: usize) -> BTreeMap<String, usize> 
             Outcome::Applied => "applied".to_owned(),
             _ => why.split(':').next().unwrap_or("").to_owned(),
         };
-        if std::env::var("LANCET_TELL").is_ok() && outcome != Outcome::Applied && key != "miss" {
-            eprintln!("{i} {from:?} {to:?} {why}");
-        }
         *outcomes.entry(key).or_insert(0) += 1;
         if i % 50 == 0 {
             assert_sound(state);
@@ -81,13 +78,11 @@ fn stress(state: &mut State, seed: u64, cuts: usize) -> BTreeMap<String, usize> 
 #[test]
 fn random_cuts_on_a_sphere_keep_every_invariant() {
     let mut state = state(&sphere(3));
-    let outcomes = stress(&mut state, 1, 300);
-    eprintln!("{outcomes:?}");
+    assert!(stress(&mut state, 1, 300)["applied"] > 100);
 }
 
 #[test]
 fn random_cuts_on_exact_coordinates_keep_every_invariant() {
     let mut state = state(&plate(8));
-    let outcomes = stress(&mut state, 2, 300);
-    eprintln!("{outcomes:?}");
+    assert!(stress(&mut state, 2, 300)["applied"] > 80);
 }
