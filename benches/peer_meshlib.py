@@ -53,16 +53,18 @@ def timed(run):
 
 
 def off_line(line):
-    """The point of a line that is farthest from the straight way between its ends: the third of its plane."""
+    """A third point of the plane, as far from the straight way between the line's ends as they are apart."""
     a, b = line[0], line[-1]
     d = [y - x for x, y in zip(a, b)]
+    square = sum(x * x for x in d)
 
-    def apart(p):
-        e = [y - x for x, y in zip(a, p)]
-        c = [d[1] * e[2] - d[2] * e[1], d[2] * e[0] - d[0] * e[2], d[0] * e[1] - d[1] * e[0]]
-        return sum(x * x for x in c)
+    def away(p):
+        t = sum((y - x) * z for x, y, z in zip(a, p, d)) / square
+        return [y - x - t * z for x, y, z in zip(a, p, d)]
 
-    return max(line[1:-1] or line, key=apart)
+    most = max((away(p) for p in line[1:-1]), key=lambda v: sum(x * x for x in v))
+    scale = (square / sum(x * x for x in most)) ** 0.5
+    return [x + scale * v for x, v in zip(a, most)]
 
 
 def peer(whole, line):

@@ -15,7 +15,7 @@ impl Random {
     }
 
     /// Any number.
-    pub fn bits(&mut self) -> u64 {
+    pub fn any(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -24,12 +24,12 @@ impl Random {
 
     /// In 0..n; 0 where n is 0.
     pub fn below(&mut self, n: usize) -> usize {
-        self.bits().checked_rem(n as u64).unwrap_or(0) as usize
+        self.any().checked_rem(n as u64).unwrap_or(0) as usize
     }
 
     /// In [0, 1).
     pub fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1u64 << 53) as f64
+        (self.any() >> 11) as f64 / (1u64 << 53) as f64
     }
 
     /// In [low, high).

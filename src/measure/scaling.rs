@@ -1,8 +1,10 @@
 //! What the same cut and the same pick cost as the mesh grows.
 //!
-//! The scene is `bust:N`. At every size the cut begins at the same pixel, crosses the same number of links, and so shrinks with the edges;
-//! what is left to differ is what grows with the mesh. The sizes take turns, round by round, so that whatever else runs on the
-//! machine disturbs them all alike. Every cut is committed and then taken back, and each round ends with picks all over the face.
+//! The scene is `bust:N`. At every size the cut begins at the same pixel and crosses the same number of links, so it shrinks with the edges.
+//! Since opening and depth of a cut follow from its length in centimetres (Lam 2016, §4.3), the unit grows as the cut shrinks: it is as long
+//! everywhere, and opens as many edges wide. What is left to differ is what grows with the mesh. The sizes take turns, round by
+//! round, so that whatever else runs on the machine disturbs them all alike. Every cut is committed and then taken back, and each
+//! round ends with picks all over the face.
 //!
 //! Not promised: the whole cost of a large mesh in use. A cut that is repeated finds its surroundings in the processor's caches.
 
@@ -81,8 +83,9 @@ pub struct ScalingReport {
 /// A mesh that waits for its next round.
 struct Runner {
     state: State,
-    cut: WoundEvent,
+    event: WoundEvent,
     links: usize,
+    length_cm: f64,
     mesh_build_s: f64,
     bvh_build_s: f64,
     rounds: Vec<Round>,
@@ -101,11 +104,12 @@ pub fn measure(
     rounds: usize,
     progress: Progress<'_>,
 ) -> Result<ScalingReport, MeasureError> {
-    let make = |(done, &faces): (usize, &usize)| {
+    let mut runners: Vec<Runner> = Vec::with_capacity(sizes.len());
+    for (done, &faces) in sizes.iter().enumerate() {
         progress(done, sizes.len() + rounds, &format!("bust:{faces}"));
-        Runner::new(faces)
-    };
-    let mut runners = sizes.iter().enumerate().map(make).collect::<Result<Vec<Runner>, _>>()?;
+        let first_cm = runners.first().map(|first| first.length_cm);
+        runners.push(Runner::new(faces, first_cm)?);
+    }
     let mut random = Random::of(0, 0, "picks");
     for round in 0..=rounds {
         progress(sizes.len() + round, sizes.len() + rounds, "cuts and picks");
@@ -140,7 +144,9 @@ fn timed<T>(run: impl FnOnce() -> T) -> (T, f64) {
 }
 
 impl Runner {
-    fn new(faces: usize) -> Result<Self, MeasureError> {
+    /// Makes the bust, and finds its cut. The unit is such that the cut is as many centimetres long as `first_cm` says; a centimetre for
+    /// the first.
+    fn new(faces: usize, first_cm: Option<f64>) -> Result<Self, MeasureError> {
         let indexed = builtin(&format!("bust:{faces}"))?.mesh;
         let (mesh, mesh_build_s) = timed(|| Mesh::build(&indexed));
         drop(indexed);
@@ -148,14 +154,19 @@ impl Runner {
         let ((), bvh_build_s) = timed(|| {
             state.mesh_and_bvh();
         });
-        let (cut, links) = fitting_cut(&mut state)?;
-        Ok(Self { state, cut, links, mesh_build_s, bvh_build_s, rounds: Vec::new() })
+        let (event, found) = fitting_cut(&mut state)?;
+        let length_cm = first_cm.unwrap_or(found.length);
+        let unit_cm = length_cm / found.length;
+        let mut state = State::new(state.mesh, Scene { unit_cm, ..default_scene() });
+        state.mesh_and_bvh();
+        let links = found.links;
+        Ok(Self { state, event, links, length_cm, mesh_build_s, bvh_build_s, rounds: Vec::new() })
     }
 
     fn round(&mut self, pixels: &[[f64; 2]]) -> Result<(), MeasureError> {
         let state = &mut self.state;
         let ((ran, hit), ready_s) = timed(|| {
-            let ran = drive::run(state, &self.cut, false);
+            let ran = drive::run(state, &self.event, false);
             (ran, pick::resolve(state, Pick::Pixel(START)))
         });
         let Some(patch) = &ran.patch else { return Err(rejected(state, &ran)) };
@@ -203,23 +214,30 @@ fn rejected(state: &State, ran: &Ran) -> MeasureError {
     MeasureError::Rejected(format!("the cut on {} faces is rejected: {why}", state.mesh.face_count()))
 }
 
+/// A line as FC forms it.
+#[derive(Clone, Copy)]
+struct Found {
+    links: usize,
+    /// Arc length, model units.
+    length: f64,
+}
+
 /// The cut whose length makes it cross as many links as wanted.
-fn fitting_cut(state: &mut State) -> Result<(WoundEvent, usize), MeasureError> {
-    let mut length = FIRST_LENGTH_PX * (SIZES[0] as f64 / state.mesh.face_count() as f64).sqrt();
-    let mut best: Option<(usize, f64)> = None;
+fn fitting_cut(state: &mut State) -> Result<(WoundEvent, Found), MeasureError> {
+    let mut length_px = FIRST_LENGTH_PX * (SIZES[0] as f64 / state.mesh.face_count() as f64).sqrt();
+    let mut best = (length_px, form(state, length_px)?);
     for _ in 0..CORRECTIONS {
-        let links = links_of(state, length)?;
-        if best.is_none_or(|(b, _)| links.abs_diff(LINKS) < b.abs_diff(LINKS)) {
-            best = Some((links, length));
+        // All of what is missing at once would jump to and fro over the number.
+        length_px *= 1.0 + 0.5 * (LINKS as f64 / best.1.links.max(1) as f64 - 1.0).clamp(-0.5, 1.0);
+        let found = form(state, length_px)?;
+        if found.links.abs_diff(LINKS) <= best.1.links.abs_diff(LINKS) {
+            best = (length_px, found);
         }
-        if links == LINKS {
+        if found.links == LINKS {
             break;
         }
-        // A little more than in proportion would jump to and fro over the number.
-        length *= 1.0 + 0.5 * (LINKS as f64 / links.max(1) as f64 - 1.0).clamp(-0.5, 1.0);
     }
-    let (links, length) = best.unwrap_or((0, length));
-    Ok((cut(length), links))
+    Ok((cut(best.0), best.1))
 }
 
 fn cut(length_px: f64) -> WoundEvent {
@@ -227,13 +245,16 @@ fn cut(length_px: f64) -> WoundEvent {
     WoundEvent::Cut { from: Pick::Pixel(START), to: Pick::Pixel(end) }
 }
 
-/// How many links the cut of a length has.
-fn links_of(state: &mut State, length_px: f64) -> Result<usize, MeasureError> {
+/// The line of the cut of a length.
+fn form(state: &mut State, length_px: f64) -> Result<Found, MeasureError> {
     state.control.mode = Mode::Patch;
     let ran = drive::run(state, &cut(length_px), false);
     state.control.mode = Mode::Carve;
     match (&ran.patch, &ran.work) {
-        (Some(_), Some(Work::Cut(cut))) => Ok(cut.formed.chain.links.len()),
+        (Some(_), Some(Work::Cut(cut))) => {
+            let chain = &cut.formed.chain;
+            Ok(Found { links: chain.links.len(), length: chain.length() })
+        }
         _ => Err(rejected(state, &ran)),
     }
 }
@@ -287,7 +308,9 @@ mod tests {
 
     #[test]
     fn the_same_cut_crosses_as_many_links_on_every_mesh_and_leaves_no_trace() {
-        let mut runners = [8_000, 32_000].map(|faces| Runner::new(faces).expect("a bust"));
+        let first = Runner::new(8_000, None).expect("a bust");
+        let second = Runner::new(32_000, Some(first.length_cm)).expect("a bust");
+        let mut runners = [first, second];
         for runner in &mut runners {
             assert_eq!(runner.links, LINKS);
             let before = Wound::counts(&runner.state);

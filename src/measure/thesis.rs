@@ -229,3 +229,33 @@ impl Sample {
         head.into_iter().chain(stages).chain(tail).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::assets;
+
+    #[test]
+    fn the_table_is_the_theses() {
+        let mean = TABLE.iter().map(Published::total).sum::<f64>() / TABLE.len() as f64;
+        assert!((mean - 4.985).abs() < 1e-3, "{mean}");
+        assert!(TABLE.is_sorted_by_key(|row| row.faces));
+    }
+
+    #[test]
+    fn a_sample_is_its_first_applied_cut_and_nothing_is_left_of_it() {
+        let script = r#"{ "version": 1, "scene": "builtin:bust:2000", "events": [
+            { "click": [1, 1] }, { "click": [600, 250] }, { "click": [660, 262] },
+            { "cut": { "from": { "pixel": [600, 300] }, "to": { "pixel": [601, 300] } } } ] }"#;
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("cut.json");
+        assets::write_file(&path, script.as_bytes()).expect("it is written");
+        let sample = sample(TABLE[0], &path, 3).expect("it has a cut");
+        let [fc, mc, ci] = sample.ms.map(|figure| figure.median);
+        assert!(fc > 0.0 && mc > 0.0 && ci > 0.0 && sample.total_ms.median >= ci, "{sample:?}");
+        assert!(sample.links >= sample.faces && sample.faces > 1 && sample.length > 1.0, "{sample:?}");
+        assert!((sample.ratio - TABLE[0].total() / sample.total_ms.median).abs() < 1e-9);
+        let missing = measure(folder.path(), 1, &|_, _, _| {});
+        assert!(matches!(missing, Err(MeasureError::Open(_))));
+    }
+}
