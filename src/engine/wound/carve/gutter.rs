@@ -1,7 +1,7 @@
 //! The inside of the cut: two walls from the rims to the bottom (Lam 2016, §4.3.2).
 //!
 //! The thesis digs along the first view ray by one depth for all. At a grazing view that runs under the skin, and in an ear it comes out at the back.
-//! Here each bottom node goes along minus the normal, averaged over its neighbours on the line and projected into the cutting plane; at
+//! Here each bottom node goes along minus the normal, averaged along the line and projected into the cutting plane; at
 //! most half as deep as there is tissue; and less, by halves, wherever the gutter would cross the surface or itself. Crossing is
 //! decided by exact signs, so that the gutter crosses nothing is a promise.
 //!
@@ -14,7 +14,7 @@ use rustc_hash::FxHashMap;
 
 use super::opening::Opening;
 use super::slit::Slit;
-use super::{Carved, Obstacle, Opened, Place, least};
+use super::{Carved, Obstacle, Opened, Place, arc_lengths, least};
 use crate::engine::wound::merge::{Line, face_box};
 use crate::geometry::bvh::{Aabb, Ray};
 use crate::geometry::crossing::{Corners, cross};
@@ -29,12 +29,28 @@ const ATTEMPTS: usize = 24;
 const PATIENCE: usize = 5;
 
 /// The direction in which the gutter goes down from each opened node: in the cutting plane, unit length.
-pub fn inward(place: &Place<'_>, line: &Line, range: &RangeInclusive<usize>) -> Vec<DVec3> {
+///
+/// The normal is averaged along the line over as far as the gutter is deep: over less, neighbouring directions would meet before they
+/// reach the bottom, and the walls fold.
+pub fn inward(place: &Place<'_>, line: &Line, range: &RangeInclusive<usize>, depth: f64) -> Vec<DVec3> {
     let mesh = &*place.mesh;
     let nodes = &line.nodes[range.clone()];
-    let normals: Vec<DVec3> = nodes.iter().map(|&n| node_normal(mesh, n)).collect();
-    let averaged = |i: usize| normals[i.saturating_sub(1)..(i + 2).min(normals.len())].iter().sum::<DVec3>();
-    (0..nodes.len()).map(|i| in_plane(place, averaged(i), tangent(mesh, nodes, i))).collect()
+    let s = arc_lengths(mesh, nodes);
+    let last = nodes.len() - 1;
+    let share = |i: usize| s[(i + 1).min(last)] - s[i.saturating_sub(1)];
+    let mut sums = Vec::with_capacity(nodes.len() + 1);
+    sums.push(DVec3::ZERO);
+    for (i, &node) in nodes.iter().enumerate() {
+        sums.push(sums[i] + node_normal(mesh, node) * share(i));
+    }
+    let averaged = |i: usize| {
+        let from = s.partition_point(|&v| v < s[i] - 0.5 * depth).min(i.saturating_sub(1));
+        let to = s.partition_point(|&v| v <= s[i] + 0.5 * depth).max((i + 2).min(last + 1));
+        sums[to] - sums[from]
+    };
+    (0..nodes.len())
+        .map(|i| in_plane(place, averaged(i).normalize_or_zero(), tangent(mesh, nodes, i)))
+        .collect()
 }
 
 fn tangent(mesh: &Mesh, nodes: &[NodeId], i: usize) -> DVec3 {
@@ -275,7 +291,6 @@ fn crossing_nodes(
 /// A face of the gutter, made ready for being tested against many.
 struct Wall {
     corners: Corners,
-    bounds: Aabb,
     normal: DVec3,
     /// Farther from the wall's plane than this is off it, whatever was rounded.
     slack: f64,
@@ -287,12 +302,12 @@ impl Wall {
         let [a, b, c] = corners.at;
         let normal = (b - a).cross(c - a);
         let slack = 1e-13 * place.largest * (b - a).abs().element_sum() * (c - a).abs().element_sum();
-        Self { corners, bounds: Aabb::around(&corners.at), normal, slack }
+        Self { corners, normal, slack }
     }
 
     /// Whether the wall crosses a face; most are told apart by a few products.
-    fn crosses(&self, other: &Corners, bounds: &Aabb) -> bool {
-        self.bounds.overlaps(bounds) && !self.has_on_one_side(other) && cross(&self.corners, other)
+    fn crosses(&self, other: &Corners) -> bool {
+        !self.has_on_one_side(other) && overlap(&self.corners.at, &other.at) && cross(&self.corners, other)
     }
 
     fn has_on_one_side(&self, other: &Corners) -> bool {
@@ -304,6 +319,12 @@ impl Wall {
         }
         above || below
     }
+}
+
+/// Whether the boxes around two triangles overlap.
+fn overlap([a, b, c]: &[DVec3; 3], [d, e, f]: &[DVec3; 3]) -> bool {
+    let apart = |low: DVec3, high: DVec3| low.cmpgt(high).any();
+    !apart(a.min(*b).min(*c), d.max(*e).max(*f)) && !apart(d.min(*e).min(*f), a.max(*b).max(*c))
 }
 
 fn corners(mesh: &Mesh, face: FaceId) -> Corners {
@@ -373,8 +394,7 @@ impl Link {
         if self.spokes.iter().flatten().any(|s| s.is_before(other)) {
             return false;
         }
-        let bounds = Aabb::around(&other.at);
-        self.walls.iter().any(|w| w.crosses(other, &bounds))
+        self.walls.iter().any(|w| w.crosses(other))
     }
 
     /// Whether the link crosses a face of the surface around it.

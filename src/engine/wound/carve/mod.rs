@@ -128,7 +128,7 @@ pub fn carve(place: &mut Place<'_>, line: Line) -> Result<Carved, Rejection> {
 
 /// Opens one part of a line.
 fn open(place: &mut Place<'_>, line: &Line, widths: &opening::Widths) -> Result<Carved, Obstacle> {
-    let inward = gutter::inward(place, line, &widths.range);
+    let inward = gutter::inward(place, line, &widths.range, widths.depth);
     let slit =
         slit::slit(place.mesh, line, &widths.range).map_err(|why| Obstacle { nodes: Vec::new(), why })?;
     let mut carved = widths.start(line.clone(), &slit);

@@ -52,7 +52,8 @@ pub fn cod_cm(length_cm: f64, depth_cm: f64) -> f64 {
 pub struct Widths {
     length: f64,
     cod: f64,
-    depth: f64,
+    /// Depth that the gutter is to have, model units.
+    pub depth: f64,
     s: Vec<f64>,
     half: Vec<f64>,
     /// The part that opens: beyond it the width is less than what rounding leaves, or there is no room.
