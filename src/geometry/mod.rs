@@ -32,9 +32,11 @@ pub fn distance_to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
 /// With doubled digits: in floats alone the normal of a sliver would be off by more than what is measured.
 pub fn distance_to_plane(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
     let normal = double::cross(double::difference(b, a), double::difference(c, a));
-    let length = double::rounded(normal).length();
-    if length > 0.0 {
-        (double::dot(normal, double::difference(p, a)).value() / length).abs()
+    let rounded = double::rounded(normal);
+    // Scaled first: the square of a tiny normal would underflow.
+    let largest = rounded.abs().max_element();
+    if largest > 0.0 {
+        (double::dot(normal, double::difference(p, a)).value() / largest / (rounded / largest).length()).abs()
     } else {
         p.distance(a).min(p.distance(b)).min(p.distance(c))
     }
