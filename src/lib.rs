@@ -15,7 +15,31 @@
 //! | [`measure`] | time against error, stability, scaling, the thesis's tables |
 //! | [`cli`] | the command line |
 //!
-//! Data flows one way: recording → replay → engine → report → front end. `tests/layers.rs` keeps it.
+//! Data flows one way: recording → replay → engine → report → front end. `geometry` and `mesh` lie under the engines. `tests/layers.rs`
+//! keeps it: it parses every path, and a room that it does not know fails.
+//!
+//! Rooms to come, and where they go: `canvas` (what can be asked of pixels, as data) under the engines, `render` beside them, `tui` beside `cli`;
+//! the stages GP and PP between FC and MC in `engine::wound`, with rows of their own in its table, so that no digest there is changes.
+//!
+//! # Rules of the house
+//!
+//! - A stage is a row in a table ([`engine::Stage`]); the session alone loops over them. Digests are per event, stage and buffer.
+//! - Topology is decided by exact signs, never by an epsilon. What rounding would collapse is caught exactly, before it happens.
+//! - A cut is a transaction: the stages work in an open journal, and are rolled back without a trace or committed together.
+//! - Four kinds of failure, never mixed: bad input (a typed error that names file, place and cause), a cut that cannot be made (a
+//!   rejection with its reason), a broken invariant or divergence (a finding with culprits), our own bug (an assertion).
+//!
+//! # Decisions that a reader might look for
+//!
+//! - **Nothing is ever removed from a mesh.** A split face keeps its id as its first child, a split edge as its first part. Ids stay
+//!   valid, undo truncates, and there is no free list to restore.
+//! - **The line is a shortest way.** The section of plane and surface is a graph; FC runs Dijkstra over it, which at the usual two
+//!   neighbours a place is following both arcs at once until the shorter arrives. Nodes with more branches need no case of their own. The
+//!   wedge of the two rays does not bound the arcs: it only says where the shorter one usually is.
+//! - **An opening is a displacement field along one direction,** so what folds can be straightened or narrowed as numbers. Where there is
+//!   no room at all the line stays closed, and the longest part between such places is opened (counters `narrowed`, `closed`).
+//! - **A subdivision is a stage too** (SD), so it has its time, digest and invariants like the rest.
+//! - **Seeking walks patches;** keyframes and re-running take over where the byte budget let patches go.
 #![warn(missing_docs)]
 
 pub mod assets;
