@@ -8,6 +8,7 @@ use super::error::{AssetError, Fault, FaultKind, Place};
 use super::scene::{self, SceneSettings};
 use super::source::{self, Source};
 use super::{CacheOptions, Note, builtin, cache};
+use crate::geometry::predicates::collinear;
 use crate::mesh::{IndexedMesh, Mesh};
 use crate::recording::{InlineMesh, SceneRef};
 
@@ -104,7 +105,16 @@ fn from_inline(inline: &InlineMesh) -> Result<IndexedMesh, Fault> {
     })
 }
 
+/// Whether a face's corners lie on one line, exactly. Corners that do not exist are the build's to refuse.
+fn has_no_area(indexed: &IndexedMesh, face: &[u32; 3]) -> bool {
+    let corner = |i: usize| indexed.positions.get(face[i] as usize).filter(|p| p.is_finite());
+    corner(0).zip(corner(1)).zip(corner(2)).is_some_and(|((a, b), c)| collinear(*a, *b, *c))
+}
+
 fn as_it_is(indexed: &IndexedMesh) -> Result<Opened, Fault> {
+    if let Some(face) = indexed.faces.iter().position(|f| has_no_area(indexed, f)) {
+        return Err(Fault::new(Place::Face(face as u64), FaultKind::NotManifold, "it has no area"));
+    }
     let mesh = Mesh::build(indexed).map_err(|error| Fault::build(&error, |face| Place::Face(face as u64)))?;
     Ok(Opened { mesh, notes: Vec::new(), hash: hash_of(indexed), from_cache: false })
 }

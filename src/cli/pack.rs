@@ -1,12 +1,15 @@
 //! `lancet pack`: a recording from its script, with the hashes that its scene is found to have.
 
-use super::args::Pack;
+use super::args::{Pack, Target};
 use super::failure::Failure;
 use super::{Console, Done, Status, json, place};
 use crate::recording::to_bytes;
 use crate::replay::Case;
 
 pub(super) fn run(typed: &Pack, console: &mut Console<'_>) -> Done {
+    if let Target::File(output) = &typed.output {
+        place::require_other(&typed.script, output)?;
+    }
     let mut case = Case::open(&typed.script)?;
     let scene = place::moved(case.recording.scene(), &case.folder, &typed.output)?;
     case.recording.set_scene(scene);

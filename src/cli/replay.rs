@@ -1,8 +1,8 @@
 //! `lancet replay`: one recording, stage by stage.
 
-use super::args::{Replay, Until};
+use super::args::{Replay, Target, Until};
 use super::failure::Failure;
-use super::{Console, Done, Status, json, show};
+use super::{Console, Done, Status, json, place, show};
 use crate::assets;
 use crate::replay::{self, Case, Options};
 use crate::report::{RunReport, trace};
@@ -11,6 +11,7 @@ use crate::report::{RunReport, trace};
 type Replayed = Box<dyn replay::Replay>;
 
 pub(super) fn run(typed: &Replay, console: &mut Console<'_>) -> Done {
+    require_possible(typed)?;
     let case = Case::open(&typed.recording)?;
     let (mut reports, mut last) = (Vec::new(), None);
     for _ in 0..typed.repeat {
@@ -22,11 +23,29 @@ pub(super) fn run(typed: &Replay, console: &mut Console<'_>) -> Done {
         return Ok(Status::Verified);
     };
     write(typed, &report, last.as_ref(), console)?;
-    let same = reports.iter().all(|other| other.without_times() == report.without_times());
+    // A NaN is not equal to itself, so a single run is not compared.
+    let same =
+        reports.len() < 2 || reports.iter().all(|other| other.without_times() == report.without_times());
     if !same {
         console.err.note("the runs differ from one another: that is a bug of lancet's");
     }
     Ok(if same && report.totals.findings == 0 { Status::Verified } else { Status::Diverged })
+}
+
+/// What cannot be meant is refused before anything is replayed.
+fn require_possible(typed: &Replay) -> Result<(), Failure> {
+    let files = [&typed.json, &typed.trace].into_iter().flatten().filter_map(|t| match t {
+        Target::File(path) => Some(path),
+        Target::Stdout => None,
+    });
+    files.chain(&typed.export_mesh).try_for_each(|output| place::require_other(&typed.recording, output))?;
+    let within_event = typed.until.as_ref().is_some_and(|until| until.stage.is_some());
+    if within_event && typed.export_mesh.is_some() {
+        return Err(Failure::new(
+            "an event that stops at a stage is taken back, so --export-mesh needs --until EVENT without a stage",
+        ));
+    }
+    Ok(())
 }
 
 fn once(typed: &Replay, case: &Case, console: &mut Console<'_>) -> Result<(Replayed, RunReport), Failure> {

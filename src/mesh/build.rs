@@ -27,6 +27,9 @@ pub struct IndexedMesh {
     pub surfaces: Vec<Surface>,
 }
 
+/// Beyond this areas and volumes would overflow.
+pub const LARGEST_COORDINATE: f64 = 1e50;
+
 /// Why a face set is not a mesh. Indices are those of the [`IndexedMesh`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[allow(missing_docs, reason = "the fields are what the message says")]
@@ -39,7 +42,7 @@ pub enum BuildError {
     Ragged,
     /// An index points nowhere.
     Index { face: usize },
-    /// A coordinate is NaN or infinite.
+    /// A coordinate is NaN, infinite, or beyond [`LARGEST_COORDINATE`].
     NotFinite { node: usize },
     /// A node that no face uses.
     Unused { node: usize },
@@ -62,7 +65,9 @@ impl fmt::Display for BuildError {
             Self::Index { face } => {
                 write!(f, "face {face} names a node or texture coordinate that does not exist")
             }
-            Self::NotFinite { node } => write!(f, "node {node} has a coordinate that is not finite"),
+            Self::NotFinite { node } => {
+                write!(f, "node {node} has a coordinate that is not finite, or beyond {LARGEST_COORDINATE:e}")
+            }
             Self::Unused { node } => write!(f, "node {node} belongs to no face"),
             Self::Degenerate { face } => write!(f, "face {face} uses a node twice"),
             Self::NonManifoldEdge { nodes: [a, b], face } => {
@@ -227,7 +232,8 @@ fn validate(input: &IndexedMesh) -> Result<(), BuildError> {
             return Err(BuildError::Degenerate { face: f });
         }
     }
-    match positions.iter().position(|p| !p.is_finite()) {
+    let is_usable = |p: &DVec3| p.is_finite() && p.abs().max_element() <= LARGEST_COORDINATE;
+    match positions.iter().position(|p| !is_usable(p)) {
         Some(node) => Err(BuildError::NotFinite { node }),
         None => Ok(()),
     }

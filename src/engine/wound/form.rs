@@ -9,7 +9,7 @@
 //! 4.2 of the thesis takes it that a face has one other crossing; through nodes, along edges and over coplanar faces it has not.
 //! Coplanar faces are passed along their border.
 //!
-//! Rounding can still collapse a face that is split: see [`settle`].
+//! Rounding can still collapse a face that is split: see [`super::settle`].
 
 use std::cmp::Ordering;
 
@@ -131,6 +131,9 @@ impl Search<'_> {
 
     /// From a node: through every face whose opposite edge crosses, and along every edge in the plane.
     fn around_node(&mut self, at: u32, node: NodeId) {
+        if self.steps[at as usize].previous != START {
+            self.ends.boundary = self.ends.boundary.or_else(|| boundary_edge(self.mesh, node));
+        }
         for (face, corner) in self.mesh.fan(node) {
             let f = *self.mesh.face(face);
             if self.target.at == At::Face(face) {
@@ -176,7 +179,7 @@ impl Search<'_> {
             self.along(at, e.nodes[1], edge);
             return;
         }
-        if e.is_boundary() {
+        if e.is_boundary() && came != FaceId::NONE {
             self.ends.boundary = Some(edge);
         }
         for face in e.faces.into_iter().filter(|&f| f != came && f != FaceId::NONE) {
@@ -275,6 +278,14 @@ impl Search<'_> {
             format!("the section through {} does not pass through {}{ended}", from.at, self.target.at);
         Rejection::new("silhouette", detail)
     }
+}
+
+/// An edge of the boundary at a node, if it lies there.
+fn boundary_edge(mesh: &Mesh, node: NodeId) -> Option<EdgeId> {
+    let edges = mesh
+        .fan(node)
+        .flat_map(|(face, corner)| [corner, (corner + 2) % 3].map(|k| mesh.face(face).edges[k]));
+    edges.into_iter().find(|&e| mesh.edge(e).is_boundary())
 }
 
 fn some_node(mesh: &Mesh, at: At) -> NodeId {

@@ -21,7 +21,7 @@ pub(super) const STAGES: &[Stage<Wound>] = &[
         title: "form cutting line",
         part: |work| part(work, Mode::Patch),
         run: |state, work| on_cut(work, |cut| form(state, cut)),
-        buffers: |_, work| cut_of(work).map_or_else(Vec::new, line_buffers),
+        buffers: |state, work| cut_of(work).map_or_else(Vec::new, |cut| line_buffers(state, cut)),
         check: |state, work| cut_of(work).map_or_else(Vec::new, |cut| checks::form(state, cut)),
     },
     Stage {
@@ -157,8 +157,8 @@ pub(super) fn mesh_buffers(mesh: &Mesh, touched: &Touched) -> Vec<Buffer> {
     vec![nodes, vertices, edges, faces]
 }
 
-/// FC's line: where its points are, and where they lie.
-fn line_buffers(cut: &Cut) -> Vec<Buffer> {
+/// FC's line: where its points are, and where they lie. And what it changed in the mesh, which is nothing.
+fn line_buffers(state: &State, cut: &Cut) -> Vec<Buffer> {
     let mut points = Buffer::new("points", "p", Scalar::F64, 6);
     let mut places = Buffer::new("places", "p", Scalar::U32, 2);
     for (i, p) in (0u32..).zip(&cut.formed.chain.points) {
@@ -179,5 +179,7 @@ fn line_buffers(cut: &Cut) -> Vec<Buffer> {
         links.push_u32(i, &[link.face.0]);
         uvs.push_f32(i, &[link.uv[0].x, link.uv[0].y, link.uv[1].x, link.uv[1].y]);
     }
-    vec![points, places, links, uvs]
+    let mut buffers = vec![points, places, links, uvs];
+    buffers.extend(mesh_buffers(&state.mesh, &state.mesh.touched_since(state.mesh.beginning())));
+    buffers
 }

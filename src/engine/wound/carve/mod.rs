@@ -65,6 +65,8 @@ pub struct Carved {
     pub opened: Vec<Opened>,
     /// Which of `opened` is at half the arc length.
     pub middle: usize,
+    /// Whether the middle is not as wide as planned.
+    pub middle_narrowed: bool,
     /// Nodes beside the line that may have moved, and where they were.
     pub moved: Vec<(NodeId, DVec3)>,
     /// The skin faces that moved, and how they lay.

@@ -72,7 +72,10 @@ impl Widths {
         let short = |why: &str| {
             Err(Rejection::new(
                 "too-short-to-open",
-                format!("a cut of {length_cm:.3e} cm {why} (it would open by {cod:.3e})"),
+                format!(
+                    "a cut of {length_cm:.3e} cm {why} (it would open by {cod:.3e}); a model unit is {} cm here",
+                    place.unit_cm
+                ),
             ))
         };
         if cod.is_nan() || cod < least(place.largest) {
@@ -224,6 +227,7 @@ impl Opening {
         let narrower =
             carved.opened.iter().zip(&self.planned).filter(|(o, planned)| o.half_width != **planned);
         carved.narrowed = narrower.count();
+        carved.middle_narrowed = carved.opened[carved.middle].half_width != self.planned[carved.middle];
         let too_narrow = |o: &Opened| o.left != o.right && 2.0 * o.half_width < least(place.largest);
         let nodes: Vec<usize> = (0..carved.opened.len()).filter(|&i| too_narrow(&carved.opened[i])).collect();
         if !nodes.is_empty() {

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use glam::DVec3;
 
-use super::{euler, position_bound, topology};
+use super::{euler, largest, position_bound, topology};
 use crate::engine::wound::carve::gutter::crosses_something;
 use crate::engine::wound::carve::opening::{cod_cm, depth_cm};
 use crate::engine::wound::carve::{Carved, Opened};
@@ -95,14 +95,15 @@ fn untouched(cut: &Cut, touched: &[NodeId]) -> Check {
 fn width(state: &State, carved: &Carved) -> Check {
     let mesh = &state.mesh;
     let apart = |o: &Opened| mesh.position(o.left).distance(mesh.position(o.right));
-    let off = carved.opened.iter().map(|o| (apart(o) - 2.0 * o.half_width).abs()).fold(0.0, f64::max);
+    let off = largest(carved.opened.iter().map(|o| (apart(o) - 2.0 * o.half_width).abs()));
     let middle = &carved.opened[carved.middle];
     let length_cm = carved.length * state.unit_cm;
     let cod = cod_cm(length_cm, depth_cm(length_cm)) / state.unit_cm;
     let s = middle.s / carved.length;
     let planned = cod * 4.0 * s * (1.0 - s);
-    let missing = if carved.narrowed + carved.closed == 0 { (apart(middle) - planned).abs() } else { 0.0 };
-    Check::at_most("width", off.max(missing), 2.0 * position_bound(state))
+    let as_planned = carved.closed == 0 && !carved.middle_narrowed;
+    let missing = if as_planned { (apart(middle) - planned).abs() } else { 0.0 };
+    Check::at_most("width", largest([off, missing].into_iter()), 2.0 * position_bound(state))
 }
 
 /// No face that moved has turned over.

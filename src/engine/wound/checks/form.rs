@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use glam::DVec2;
 
-use super::position_bound;
+use super::{largest, position_bound};
 use crate::engine::wound::chain::{At, Chain, Point};
 use crate::engine::wound::plane::CutPlane;
 use crate::engine::wound::state::{Cut, State};
@@ -20,10 +20,10 @@ pub(in super::super) fn form(state: &State, cut: &Cut) -> Vec<Check> {
         links_join(mesh, chain),
         classes(mesh, plane, chain),
         ends(cut, bound),
-        Check::at_most("plane-distance", largest(chain, |p, _| plane.distance(p.position)), bound),
+        Check::at_most("plane-distance", over_links(chain, |p, _| plane.distance(p.position)), bound),
         Check::at_most(
             "face-distance",
-            largest(chain, |p, f| distance_to_plane(p.position, mesh.triangle(f))),
+            over_links(chain, |p, f| distance_to_plane(p.position, mesh.triangle(f))),
             bound,
         ),
         edges(mesh, chain, bound),
@@ -35,9 +35,9 @@ pub(in super::super) fn form(state: &State, cut: &Cut) -> Vec<Check> {
 }
 
 /// Over all links, at both ends.
-fn largest(chain: &Chain, measure: impl Fn(&Point, FaceId) -> f64) -> f64 {
+fn over_links(chain: &Chain, measure: impl Fn(&Point, FaceId) -> f64) -> f64 {
     let ends = chain.links.iter().enumerate().flat_map(|(i, l)| [(i, l.face), (i + 1, l.face)]);
-    ends.map(|(i, f)| measure(&chain.points[i], f)).fold(0.0, f64::max)
+    largest(ends.map(|(i, f)| measure(&chain.points[i], f)))
 }
 
 fn links_join(mesh: &Mesh, chain: &Chain) -> Check {
@@ -90,7 +90,7 @@ fn ends(cut: &Cut, bound: f64) -> Check {
         return Check::fail("ends", "the line has no ends");
     };
     let moved = |p: &Point, i: usize| p.position.distance(picked[i].point.position);
-    Check::at_most("ends", moved(first, 0).max(moved(last, 1)), bound)
+    Check::at_most("ends", largest([moved(first, 0), moved(last, 1)].into_iter()), bound)
 }
 
 fn edges(mesh: &Mesh, chain: &Chain, bound: f64) -> Check {
@@ -102,7 +102,7 @@ fn edges(mesh: &Mesh, chain: &Chain, bound: f64) -> Check {
         At::Node(n) => mesh.position(n).distance(p.position),
         At::Face(_) => 0.0,
     });
-    Check::at_most("edge-distance", off.fold(0.0, f64::max), bound)
+    Check::at_most("edge-distance", largest(off), bound)
 }
 
 /// Two ulps of f32 around the face's triangle in texture space.
@@ -113,7 +113,7 @@ fn uvs(mesh: &Mesh, chain: &Chain) -> Check {
         distance_outside(uv.as_dvec2(), corners.map(|c| c.as_dvec2())) / (size.next_up() - size) as f64
     };
     let ends = chain.links.iter().flat_map(|l| l.uv.map(|uv| outside(uv, l.face)));
-    Check::at_most("uv-ulps", ends.fold(0.0, f64::max), 2.0)
+    Check::at_most("uv-ulps", largest(ends), 2.0)
 }
 
 /// How far a point is from a triangle of either orientation; 0 inside.

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{euler, position_bound, topology};
+use super::{euler, largest, position_bound, topology};
 use crate::engine::wound::pattern::altitude;
 use crate::engine::wound::state::{Before, Cut, State};
 use crate::geometry::distance_to_plane;
@@ -68,12 +68,12 @@ fn parent_distance(mesh: &Mesh, families: &[Family<'_>]) -> f64 {
     let corners = families.iter().flat_map(|((_, parent), children)| {
         children.iter().flat_map(|&f| mesh.triangle(f)).map(|p| distance_to_plane(p, *parent))
     });
-    corners.fold(0.0, f64::max)
+    largest(corners)
 }
 
 /// Texture coordinates of new corners are those of their place in the parent, up to 1e-6 and what the place itself is uncertain by.
 fn uv_affine(mesh: &Mesh, families: &[Family<'_>], bound: f64) -> Check {
-    let mut worst = 0.0f64;
+    let mut worst = 0.0;
     for ((face, parent), children) in families {
         let uvs = face.vertices.map(|v| mesh.vertex(v).uv.as_dvec2());
         let extent = uvs[0].distance(uvs[1]).max(uvs[1].distance(uvs[2]));
@@ -81,7 +81,8 @@ fn uv_affine(mesh: &Mesh, families: &[Family<'_>], bound: f64) -> Check {
         for &child in *children {
             for (p, v) in mesh.triangle(child).into_iter().zip(mesh.face(child).vertices) {
                 let expected = affine(*parent, uvs, p);
-                worst = worst.max(expected.distance(mesh.vertex(v).uv.as_dvec2()) / tolerance);
+                let off = expected.distance(mesh.vertex(v).uv.as_dvec2()) / tolerance;
+                worst = largest([worst, off].into_iter());
             }
         }
     }

@@ -24,6 +24,11 @@ fn position_bound(state: &State) -> f64 {
     POSITION_ULPS * ulp(state.largest)
 }
 
+/// The largest of some measurements; NaN if one of them is, so that no bound is kept by not being a number.
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |most, v| if v.is_nan() || v > most { v } else { most })
+}
+
 fn topology(mesh: &Mesh, faces: &[FaceId]) -> Check {
     match check::around(mesh, faces) {
         Ok(()) => Check::pass("topology"),
