@@ -1,6 +1,6 @@
 //! Random and adversarial cuts over the built-in scenes: what becomes of them, and whether any invariant breaks.
 //!
-//! Three fifths of the cuts go between random pixels, a fifth through nodes and along edges or with hostile values ([`cuts`]), and a fifth
+//! Three fifths of the cuts go between random pixels, a fifth through nodes and along edges or with hostile values (`cuts`), and a fifth
 //! over earlier cuts. They are merged or carved, seen from random cameras, on the scenes as they are and scaled to millionths and millions
 //! ([`scenes`]). After each stage of each cut its local checks are made, and every hundred cuts, before a fresh scene is taken, the checks of
 //! the whole. A rejected cut must leave no trace; now and then that is looked at bit for bit. A panic is a finding too.
