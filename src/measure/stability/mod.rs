@@ -2,7 +2,7 @@
 //!
 //! Three fifths of the cuts go between random pixels, a fifth through nodes and along edges or with hostile values (`cuts`), and a fifth
 //! over earlier cuts. They are merged or carved, seen from random cameras, on the scenes as they are and scaled to millionths and millions
-//! ([`scenes`]). After each stage of each cut its local checks are made, and every hundred cuts, before a fresh scene is taken, the checks of
+//! (`scenes`). After each stage of each cut its local checks are made, and every hundred cuts, before a fresh scene is taken, the checks of
 //! the whole. A rejected cut must leave no trace; now and then that is looked at bit for bit. A panic is a finding too.
 //!
 //! The cuts come in **parts**, one scene each, and a part depends on the seed and its number alone. So parts can be run by any number of
