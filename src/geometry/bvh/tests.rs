@@ -1,3 +1,5 @@
+//! Whatever is edited, a query finds what a look at everything finds.
+
 use super::*;
 
 /// Small boxes scattered by a fixed rule.
