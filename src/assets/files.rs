@@ -7,10 +7,14 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::error::AssetError;
+use super::error::{AssetError, Fault, FaultKind};
 
-/// The bytes of a file.
+/// The bytes of a file; refuses what is none, such as a device without an end.
 pub fn read_file(path: &Path) -> Result<Vec<u8>, AssetError> {
+    let metadata = fs::metadata(path).map_err(|e| AssetError::io(path, &e))?;
+    if !metadata.is_file() {
+        return Err(Fault::whole(FaultKind::Io, "is not a file").in_file(path));
+    }
     fs::read(path).map_err(|e| AssetError::io(path, &e))
 }
 

@@ -6,8 +6,8 @@ use glam::{DVec3, Vec2};
 
 use super::error::{AssetError, Fault, FaultKind, Place};
 use super::scene::{self, SceneSettings};
-use super::source::{self, Source};
-use super::{CacheOptions, Note, builtin, cache};
+use super::source::Source;
+use super::{CacheOptions, Note, builtin, cache, read_file};
 use crate::geometry::predicates::collinear;
 use crate::mesh::{IndexedMesh, Mesh};
 use crate::recording::{InlineMesh, SceneRef};
@@ -52,7 +52,7 @@ pub fn open(scene: &SceneRef, base: &Path, options: &CacheOptions) -> Result<Loa
 }
 
 fn open_scene_file(path: &Path, options: &CacheOptions) -> Result<(Opened, SceneSettings), AssetError> {
-    let bytes = source::read_file(path)?;
+    let bytes = read_file(path)?;
     let (mesh, settings) = scene::parse(&bytes).map_err(|fault| fault.in_file(path))?;
     let opened = match mesh.strip_prefix(BUILTIN) {
         Some(name) => open_builtin(name),

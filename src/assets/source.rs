@@ -1,9 +1,9 @@
 //! The bytes of a mesh file, all of them: a glTF may keep its buffers in files of their own.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::error::{AssetError, Fault, FaultKind};
+use super::files::read_file;
 use super::repair;
 use super::soup::Soup;
 use super::weld::Rule;
@@ -80,15 +80,6 @@ impl Source {
             Format::Gltf => parse_gltf(&self.bytes, &self.buffers),
         }
     }
-}
-
-/// A whole file; refuses what is none, such as a device without an end.
-pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, AssetError> {
-    let metadata = fs::metadata(path).map_err(|error| AssetError::io(path, &error))?;
-    if !metadata.is_file() {
-        return Err(Fault::whole(FaultKind::Io, "is not a file").in_file(path));
-    }
-    fs::read(path).map_err(|error| AssetError::io(path, &error))
 }
 
 /// The buffers that a glTF names. Their paths are relative to it and may lead anywhere that the user may read.
