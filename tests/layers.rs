@@ -24,8 +24,13 @@ const ROOMS: &[Room] = &[
     Room { name: "mesh", may_name: &["geometry"], why: "topology knows no engine, file, clock or report" },
     Room { name: "report", may_name: &[], why: "plain data, that any front end can show" },
     Room {
+        name: "canvas",
+        may_name: &["mesh", "report"],
+        why: "what can be asked of pixels, as data: no pixels, no engine, no renderer",
+    },
+    Room {
         name: "engine",
-        may_name: &["geometry", "mesh", "report"],
+        may_name: &["canvas", "geometry", "mesh", "report"],
         why: "an engine knows no front end, file, recording or session",
     },
     Room {

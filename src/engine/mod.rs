@@ -9,11 +9,14 @@
 pub mod wound;
 
 use std::fmt::Debug;
+use std::sync::Arc;
 
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use crate::canvas::frame::FrameJob;
+use crate::canvas::job::{Painting, PatchJob};
 use crate::mesh::Mesh;
 use crate::report::{Buffer, Check, Counters, Outcome, Overlay, Rejection, Table};
 
@@ -64,6 +67,15 @@ pub enum Part {
     Absent,
 }
 
+/// What a stage asks of the renderer. Its time is part of the stage's.
+#[derive(Clone, Copy, Debug)]
+pub enum Job<'a> {
+    /// Make a wound patch.
+    Patch(&'a PatchJob),
+    /// Paint.
+    Paint(&'a Arc<Painting>),
+}
+
 /// A row of an engine's table of stages.
 #[allow(clippy::type_complexity, reason = "each is one function pointer over the engine's own types")]
 pub struct Stage<E: Engine> {
@@ -75,6 +87,8 @@ pub struct Stage<E: Engine> {
     pub part: fn(&E::Work) -> Part,
     /// Does it. Only this is timed. An error ends the event, and the session rolls back.
     pub run: fn(&mut E::State, &mut E::Work) -> Result<(), Rejection>,
+    /// What the renderer has to do for it, once it ran.
+    pub job: fn(&E::Work) -> Option<Job<'_>>,
     /// What it changed, buffer by buffer, in a fixed order.
     pub buffers: fn(&E::State, &E::Work) -> Vec<Buffer>,
     /// Its invariants, looked at around what it touched.
@@ -141,6 +155,14 @@ pub trait Engine: Sized + 'static {
     fn counts(state: &Self::State) -> Vec<(&'static str, i64)>;
     /// The surface to show and to export, where the engine has one.
     fn mesh(_state: &Self::State) -> Option<&Mesh> {
+        None
+    }
+    /// What was painted on the maps so far, in order.
+    fn paintings(_state: &Self::State) -> &[Arc<Painting>] {
+        &[]
+    }
+    /// The picture to render, where the engine has one. A version names a state of the mesh; with `everything` nothing is skipped.
+    fn frame(_state: &Self::State, _version: u64, _everything: bool) -> Option<FrameJob<'_>> {
         None
     }
     /// Whether a piece of work counts as a cut in the sums of a run.

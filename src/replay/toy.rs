@@ -138,6 +138,7 @@ impl Engine for Toy {
             title: "never",
             part: |_| Part::Absent,
             run: |_, _| Ok(()),
+            job: |_| None,
             buffers: |_, _| Vec::new(),
             check: |_, _| Vec::new(),
         },
