@@ -42,7 +42,7 @@ impl Case {
     }
 
     fn replay(&self, options: Options) -> Box<dyn Replay> {
-        replay::open(&self.recording, self.scene.clone(), options).expect("its own scene")
+        replay::open(&self.recording, self.scene.clone(), options, None).expect("its own scene")
     }
 
     fn run(&self, options: Options) -> RunReport {

@@ -120,7 +120,7 @@ fn cut(name: String, scene: SceneRef, loaded: Loaded) -> Row {
     let any = AnyRecording::Wound(recording.clone());
     keep(&name, "lancet", &lancet::recording::to_bytes(&any).expect("a recording has a form"));
     let camera = camera(&loaded.mesh);
-    let mut replay = replay::open(&any, loaded, Options::default()).expect("its own scene");
+    let mut replay = replay::open(&any, loaded, Options::default(), None).expect("its own scene");
     let mut row = Row { name, faces: facts.faces, clean, ..Row::default() };
     let mut reasons = BTreeMap::new();
     while row.hits < CUTS {

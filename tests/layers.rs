@@ -45,7 +45,7 @@ const ROOMS: &[Room] = &[
     },
     Room {
         name: "replay",
-        may_name: &["assets", "engine", "mesh", "recording", "report"],
+        may_name: &["assets", "canvas", "engine", "mesh", "recording", "report"],
         why: "the session drives engines, and knows no goldens and no front end",
     },
     Room {

@@ -121,7 +121,7 @@ fn replayed(file: &Path) -> (String, RunReport) {
     assert!(file.extension().is_some_and(|e| e == "lancet"), "{} is no recording", file.display());
     let options = Options { budget_bytes: 0, ..Options::default() };
     let mut replay =
-        replay::open_file(file, options).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
+        replay::open_file(file, options, None).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
     replay.finish();
     let run = replay.run_report(&name);
     (name, run)

@@ -50,15 +50,13 @@
 //!
 //! Scattered diffuse light + specular light, clamped to 0 … 1, encoded as sRGB, rounded; alpha 255. Behind the model the background's colour.
 
-use glam::DVec3;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use super::image::Image;
 use super::look::{Look, Spotlight, Switches};
 use crate::mesh::Mesh;
 #[cfg(doc)]
 use crate::mesh::Surface;
+pub use crate::report::Pass;
+use glam::DVec3;
 
 /// Three key, fill and rim lights, for scenes that name none.
 fn usual_lights() -> Vec<Spotlight> {
@@ -190,20 +188,4 @@ pub struct Frame {
     pub image: Image,
     /// What was done for it, in order.
     pub passes: Vec<Pass>,
-}
-
-/// A part of rendering a frame.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Pass {
-    /// What it is: `upload`, `shadow 0`, …, `skin`, `scatter`, `compose`.
-    pub id: String,
-    /// Microseconds that it took; the device's where that can be asked.
-    pub us: f64,
-    /// Why it was not done.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub skipped: Option<String>,
-    /// How many tiles of the screen it worked through; 0 of a pass that has none.
-    pub tiles: u32,
-    /// Of how many.
-    pub of: u32,
 }

@@ -255,6 +255,14 @@ impl Default for Background {
     }
 }
 
+impl Background {
+    /// It as a texel of a picture.
+    pub fn bytes(self) -> [u8; 4] {
+        let [r, g, b] = self.0.map(|v| (v.clamp(0.0, 1.0) * 255.0).round() as u8);
+        [r, g, b, 255]
+    }
+}
+
 /// Which parts of the renderer are on (Lam 2016, §6.3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]

@@ -49,7 +49,7 @@ fn side(path: &Path) -> Result<(Option<AnyRecording>, Side), Failure> {
     }
     let case = Case::open(path)?;
     let options = Options { keep_deltas: true, ..Options::default() };
-    let mut replay = case.replay(&case.recording, options)?;
+    let mut replay = case.replay(&case.recording, options, None)?;
     replay.finish();
     let side = Side { run: replay.run_report(&path.display().to_string()), deltas: replay.take_deltas() };
     Ok((Some(case.recording), side))

@@ -26,7 +26,7 @@ pub(super) fn run(typed: &Reduce, console: &mut Console<'_>) -> Done {
 
 /// How a recording fails: the name of the first invariant that breaks.
 fn failure(case: &Case, recording: &AnyRecording) -> Result<Option<String>, Failure> {
-    Ok(verify::failure(case.replay(recording, Options::default())?))
+    Ok(verify::failure(case.replay(recording, Options::default(), None)?))
 }
 
 struct Reducer<'a, 'c, 'w> {

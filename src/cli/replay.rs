@@ -50,7 +50,7 @@ fn require_possible(typed: &Replay) -> Result<(), Failure> {
 
 fn once(typed: &Replay, case: &Case, console: &mut Console<'_>) -> Result<(Replayed, RunReport), Failure> {
     let options = Options { paranoid: typed.paranoid, ..Options::default() };
-    let mut replay = case.replay(&case.recording, options)?;
+    let mut replay = case.replay(&case.recording, options, None)?;
     let name = typed.recording.display().to_string();
     let report = match &typed.until {
         None => to_the_end(replay.as_mut(), &name, console),

@@ -119,7 +119,7 @@ pub fn measure(folder: &Path, repeat: usize, progress: Progress<'_>) -> Result<T
 
 fn sample(thesis: Published, path: &Path, repeat: usize) -> Result<Sample, MeasureError> {
     let case = Case::open(path)?;
-    let mut replay = case.replay(&case.recording, Options::default())?;
+    let mut replay = case.replay(&case.recording, Options::default(), None)?;
     let none = || MeasureError::NoCut(path.display().to_string());
     let cut = first_cut(replay.as_mut()).ok_or_else(none)?;
     // Stopped after its last stage, the cut is taken back, so that each run begins where the first did. The first one warms up.

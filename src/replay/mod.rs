@@ -10,9 +10,14 @@
 //! **Seek.** The state before any event is reached by walking patches, or by running again from the nearest keyframe; both give the
 //! bits that linear replay gives. What is kept for it lies under a byte budget; with none at all, seeking runs again
 //! from the first state, which undoing everything always gives back.
+//!
+//! **Pixels.** A session may be given a renderer. Then a stage's job is carried out within the stage's time, a checkpoint has a frame, and the
+//! maps follow undo and seek, by the list of paintings that is part of the state. Without one nothing but the pictures is missing: digests are those of
+//! the jobs.
 
 mod digest;
 mod open;
+mod pixels;
 mod session;
 mod stages;
 #[cfg(test)]
@@ -25,6 +30,9 @@ pub use open::{Case, OpenError, open, open_file, read};
 pub use session::Session;
 pub use stages::{Plant, Planting};
 
+use crate::canvas::RenderError;
+use crate::canvas::frame::{Frame, View};
+use crate::canvas::image::{Image, MapId};
 use crate::mesh::Mesh;
 use crate::report::{EventDelta, EventReport, Finding, RunReport, StateReport};
 
@@ -41,11 +49,39 @@ pub struct Options {
     pub keep_deltas: bool,
     /// A defect to plant, to see that it is found.
     pub plant: Option<Plant>,
+    /// Skips nothing of what pixels take: maps are painted and frames rendered in full, whether they are needed or not.
+    pub everything: bool,
+    /// Pictures will be asked for, at no checkpoint: [`Replay::frame`] and [`Replay::map`].
+    pub pictures: bool,
+}
+
+/// The largest frame of a checkpoint: larger views are rendered smaller, in their own shape.
+pub const CHECKPOINT_SIZE: [u32; 2] = [640, 360];
+
+/// A checkpoint's frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CheckpointFrame {
+    /// The event.
+    pub event: usize,
+    /// The checkpoint's name.
+    pub name: String,
+    /// The frame.
+    pub frame: Frame,
+    /// The colour behind the model, as it is in the picture.
+    pub background: [u8; 4],
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { check_every: 0, paranoid: false, budget_bytes: 256 << 20, keep_deltas: false, plant: None }
+        Self {
+            check_every: 0,
+            paranoid: false,
+            budget_bytes: 256 << 20,
+            keep_deltas: false,
+            plant: None,
+            everything: false,
+            pictures: false,
+        }
     }
 }
 
@@ -85,6 +121,14 @@ pub trait Replay: Send {
     fn take_deltas(&mut self) -> Vec<EventDelta>;
     /// What became of the defect to plant.
     fn planting(&self) -> &Planting;
+    /// Renders the state as it is now, no larger than a limit. None without a renderer.
+    fn frame(&mut self, limit: Option<[u32; 2]>) -> Option<(Frame, View)>;
+    /// A map as it is now. None without a renderer.
+    fn map(&mut self, map: MapId) -> Option<Image>;
+    /// The frames of the checkpoints that were run since this was last asked.
+    fn take_frames(&mut self) -> Vec<CheckpointFrame>;
+    /// Why the renderer was let go of.
+    fn failure(&self) -> Option<&RenderError>;
     /// Runs all events that are left.
     fn finish(&mut self) {
         while self.step().is_some() {}

@@ -5,8 +5,11 @@ use std::path::{Path, PathBuf};
 
 use super::{Options, Replay, Session};
 use crate::assets::{self, AssetError, CacheOptions, Loaded, SceneSettings};
-use crate::engine::Engine;
+use crate::canvas::image::Maps;
+use crate::canvas::look::Look;
+use crate::canvas::{RenderError, Renderer, Studio};
 use crate::engine::wound::{self, Wound};
+use crate::engine::{Control, Engine, Event};
 use crate::recording::{self, AnyRecording, ReadError, Recording, Script, ScriptError};
 
 /// Why a recording cannot be replayed.
@@ -28,6 +31,8 @@ pub enum OpenError {
         /** What is wrong with it, and where. */
         error: ScriptError,
     },
+    /// The renderer cannot take the scene.
+    Render(RenderError),
     /// The scene or its mesh is not what was recorded on.
     Mismatch {
         /** `scene` or `mesh`. */
@@ -43,6 +48,7 @@ impl fmt::Display for OpenError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Asset(error) => error.fmt(f),
+            Self::Render(error) => error.fmt(f),
             Self::Recording { path, error } => write!(f, "{}: {error}", path.display()),
             Self::Script { path, error } => write!(f, "{}: {error}", path.display()),
             Self::Mismatch { what, expected, found } => {
@@ -81,8 +87,13 @@ impl Case {
     }
 
     /// A replay of its recording, or of another on the same scene.
-    pub fn replay(&self, recording: &AnyRecording, options: Options) -> Result<Box<dyn Replay>, OpenError> {
-        open(recording, self.scene.clone(), options)
+    pub fn replay(
+        &self,
+        recording: &AnyRecording,
+        options: Options,
+        studio: Option<&dyn Studio>,
+    ) -> Result<Box<dyn Replay>, OpenError> {
+        open(recording, self.scene.clone(), options, studio)
     }
 }
 
@@ -97,19 +108,32 @@ pub fn read(path: &Path) -> Result<AnyRecording, OpenError> {
 }
 
 /// Opens a recording or a script, with the scene that it names.
-pub fn open_file(path: &Path, options: Options) -> Result<Box<dyn Replay>, OpenError> {
+pub fn open_file(
+    path: &Path,
+    options: Options,
+    studio: Option<&dyn Studio>,
+) -> Result<Box<dyn Replay>, OpenError> {
     let Case { recording, scene, .. } = Case::open(path)?;
-    open(&recording, scene, options)
+    open(&recording, scene, options, studio)
 }
 
-/// A recording, on the scene that it was recorded on.
-pub fn open(recording: &AnyRecording, scene: Loaded, options: Options) -> Result<Box<dyn Replay>, OpenError> {
+/// A recording, on the scene that it was recorded on. With a studio it has pixels, if it needs any.
+pub fn open(
+    recording: &AnyRecording,
+    scene: Loaded,
+    options: Options,
+    studio: Option<&dyn Studio>,
+) -> Result<Box<dyn Replay>, OpenError> {
     require_same(recording, &scene)?;
     match recording {
         AnyRecording::Wound(recording) => {
+            let renderer = match studio {
+                Some(studio) if needs_pixels(recording, &options) => Some(renderer(&scene, studio)?),
+                _ => None,
+            };
             let Loaded { mesh, settings, .. } = scene;
             let state = wound::State::new(mesh, wound_scene(&settings, recording.viewport));
-            Ok(Box::new(session::<Wound>(state, recording, options)))
+            Ok(Box::new(session::<Wound>(state, recording, options).with_renderer(renderer)))
         }
     }
 }
@@ -117,6 +141,17 @@ pub fn open(recording: &AnyRecording, scene: Loaded, options: Options) -> Result
 fn session<E: Engine>(state: E::State, recording: &Recording<E::Event>, options: Options) -> Session<E> {
     let events = recording.events.iter().map(|keyed| (keyed.key, keyed.event.clone())).collect();
     Session::new(state, events, recording.seed, options)
+}
+
+/// Without a frame nobody sees the maps: they are neither loaded nor painted.
+fn needs_pixels<E: Event>(recording: &Recording<E>, options: &Options) -> bool {
+    let is_checkpoint = |event: &E| matches!(event.control(), Control::Checkpoint(_));
+    options.everything || options.pictures || recording.events.iter().any(|e| is_checkpoint(&e.event))
+}
+
+fn renderer(scene: &Loaded, studio: &dyn Studio) -> Result<Box<dyn Renderer>, OpenError> {
+    let maps = Maps::plain(&Look::default().skin);
+    studio.open(std::sync::Arc::new(maps), &scene.mesh).map_err(OpenError::Render)
 }
 
 fn wound_scene(settings: &SceneSettings, viewport: [u32; 2]) -> wound::Scene {
@@ -169,7 +204,7 @@ mod tests {
         let file = folder.path().join("square.lancet");
         let bytes = to_bytes(&packed()).expect("it has a form");
         assets::write_file(&file, &bytes).expect("written");
-        let mut replay = open_file(&file, Options::default()).expect("it opens");
+        let mut replay = open_file(&file, Options::default(), None).expect("it opens");
         use Outcome::{Applied, None, Pending, Rejected};
         let expected = [None, Pending, Applied, Rejected, None, Applied, Applied];
         assert_eq!(outcomes(replay.as_mut()), expected);
@@ -178,15 +213,15 @@ mod tests {
         assert_eq!((run.scene["faces"], run.totals.cuts), (2, 1));
         assert!(run.end.is_some_and(|end| end.counts["faces"] > 2));
         assets::write_file(&file, &bytes[..bytes.len() - 1]).expect("written");
-        assert!(matches!(open_file(&file, Options::default()), Err(OpenError::Recording { .. })));
-        let missing = open_file(&folder.path().join("missing"), Options::default());
+        assert!(matches!(open_file(&file, Options::default(), None), Err(OpenError::Recording { .. })));
+        let missing = open_file(&folder.path().join("missing"), Options::default(), None);
         assert!(matches!(missing, Err(OpenError::Asset(_))));
     }
 
     #[test]
     fn seeking_the_wound_engine_equals_linear_replay() {
         let recording = packed();
-        let at = |options: Options| open(&recording, load(&recording), options).expect("it opens");
+        let at = |options: Options| open(&recording, load(&recording), options, None).expect("it opens");
         let mut linear = at(Options::default());
         let mut states = vec![linear.state()];
         while linear.step().is_some() {
@@ -208,7 +243,7 @@ mod tests {
         mesh[0] ^= 1;
         recording.set_hashes([scene, mesh]);
         let scene = load(&recording);
-        let error = open(&recording, scene, Options::default()).err().expect("it is another mesh");
+        let error = open(&recording, scene, Options::default(), None).err().expect("it is another mesh");
         assert!(error.to_string().starts_with("the mesh is not the one"), "{error}");
     }
 }

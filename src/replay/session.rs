@@ -4,9 +4,13 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::digest;
+use super::pixels::Pixels;
 use super::stages::{Pipeline, Planting};
 use super::timeline::{Change, Keyframe, Stacks, Step, Timeline};
-use super::{Options, Replay};
+use super::{CHECKPOINT_SIZE, CheckpointFrame, Options, Replay};
+use crate::canvas::frame::{Frame, View};
+use crate::canvas::image::{Image, MapId};
+use crate::canvas::{RenderError, Renderer};
 use crate::engine::{Control, Engine, Event, Start};
 use crate::mesh::Mesh;
 use crate::report::{
@@ -33,6 +37,10 @@ pub struct Session<E: Engine> {
     finding: Option<Finding>,
     end: Option<StateReport>,
     planting: Planting,
+    pixels: Pixels,
+    frames: Vec<CheckpointFrame>,
+    /// Another number whenever the body may be another.
+    version: u64,
 }
 
 impl<E: Engine> Session<E> {
@@ -52,10 +60,19 @@ impl<E: Engine> Session<E> {
             finding: None,
             end: None,
             planting: Planting::Open,
+            pixels: Pixels::default(),
+            frames: Vec::new(),
+            version: 0,
             options,
         };
         session.look_at_end();
         session
+    }
+
+    /// The same, with a renderer of the scene as it is before the first event.
+    #[must_use]
+    pub fn with_renderer(self, renderer: Option<Box<dyn Renderer>>) -> Self {
+        Self { pixels: Pixels::new(renderer), ..self }
     }
 
     /// The state as it is now.
@@ -74,7 +91,10 @@ impl<E: Engine> Session<E> {
             return false;
         }
         match self.timeline.step(self.position) {
-            Some(step) => step.forward(&mut self.state, &mut self.stacks),
+            Some(step) => {
+                step.forward(&mut self.state, &mut self.stacks);
+                self.version += u64::from(step.change.is_edit());
+            }
             None => self.run(),
         }
         self.position += 1;
@@ -88,12 +108,14 @@ impl<E: Engine> Session<E> {
             return false;
         };
         step.backward(&mut self.state, &mut self.stacks);
+        self.version += u64::from(step.change.is_edit());
         self.position -= 1;
         true
     }
 
     /// Goes to the nearest keyframe at or before an event, or to the beginning.
     fn restore(&mut self, event: usize) {
+        self.version += 1;
         if let Some((at, keyframe)) = self.timeline.keyframe(event) {
             self.state.clone_from(&keyframe.state);
             self.stacks = keyframe.stacks.clone();
@@ -124,6 +146,7 @@ impl<E: Engine> Session<E> {
         };
         report.mode = E::mode(&self.state).into();
         self.stacks.edits += usize::from(change.is_edit());
+        self.version += u64::from(change.is_edit());
         self.look_after(&mut report, change.is_edit());
         self.timeline.keep_step(index, Step { before, after: E::control(&self.state), change });
         self.keep_report(report);
@@ -149,7 +172,7 @@ impl<E: Engine> Session<E> {
             }
             Start::Run(work) => work,
         };
-        let mut pipeline = Pipeline::<E>::new(&mut self.state, work);
+        let mut pipeline = Pipeline::<E>::new(&mut self.state, work, &mut self.pixels);
         pipeline.plant = self.options.plant.as_ref().filter(|p| p.event == report.index);
         pipeline.keep_deltas = self.options.keep_deltas && last.is_none();
         pipeline.last = last;
@@ -199,8 +222,26 @@ impl<E: Engine> Session<E> {
             report.outcome = Outcome::Cancelled;
         }
         report.checkpoint = Some(name.into());
-        report.frame = Some("skipped: no renderer".into());
+        self.picture(name, report);
         Change::None
+    }
+
+    /// Renders a checkpoint's frame, and keeps it.
+    fn picture(&mut self, name: &str, report: &mut EventReport) {
+        report.frame = Some("skipped: no renderer".into());
+        let Some((frame, view)) = self.render(Some(CHECKPOINT_SIZE)) else { return };
+        report.frame = Some(format!("{} x {}", view.size[0], view.size[1]));
+        report.passes.clone_from(&frame.passes);
+        let background = E::frame(&self.state, self.version, false).map(|job| job.look.background);
+        let background = background.map_or([0; 4], |colour| colour.bytes());
+        self.frames.push(CheckpointFrame { event: report.index, name: name.into(), frame, background });
+    }
+
+    fn render(&mut self, limit: Option<[u32; 2]>) -> Option<(Frame, View)> {
+        let mut job = E::frame(&self.state, self.version, self.options.everything)?;
+        job.view = limit.map_or(job.view, |limit| job.view.within(limit));
+        let frame = self.pixels.frame(E::paintings(&self.state), &job)?;
+        Some((frame, job.view))
     }
 
     /// Looks at the whole state where the options or a checkpoint ask for it.
@@ -372,5 +413,21 @@ impl<E: Engine> Replay for Session<E> {
 
     fn planting(&self) -> &Planting {
         &self.planting
+    }
+
+    fn frame(&mut self, limit: Option<[u32; 2]>) -> Option<(Frame, View)> {
+        self.render(limit)
+    }
+
+    fn map(&mut self, map: MapId) -> Option<Image> {
+        self.pixels.map(E::paintings(&self.state), map)
+    }
+
+    fn take_frames(&mut self) -> Vec<CheckpointFrame> {
+        std::mem::take(&mut self.frames)
+    }
+
+    fn failure(&self) -> Option<&RenderError> {
+        self.pixels.failure()
     }
 }

@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use super::digest;
+use super::pixels::Pixels;
 use crate::engine::{Engine, Part, Stage};
 use crate::report::{EventReport, Rejection, StageDelta, StageReport};
 
@@ -57,6 +58,8 @@ pub enum Planting {
 pub(super) struct Pipeline<'a, E: Engine> {
     pub(super) state: &'a mut E::State,
     pub(super) work: E::Work,
+    /// Who carries the stages' jobs out, if anybody does.
+    pixels: &'a mut Pixels,
     /// The defect to plant at this event.
     pub(super) plant: Option<&'a Plant>,
     pub(super) planting: Planting,
@@ -71,10 +74,12 @@ pub(super) struct Pipeline<'a, E: Engine> {
 }
 
 impl<'a, E: Engine> Pipeline<'a, E> {
-    pub(super) fn new(state: &'a mut E::State, work: E::Work) -> Self {
+    pub(super) fn new(state: &'a mut E::State, work: E::Work, pixels: &'a mut Pixels) -> Self {
+        pixels.follow(E::paintings(state));
         Self {
             state,
             work,
+            pixels,
             plant: None,
             planting: Planting::Open,
             keep_deltas: false,
@@ -108,6 +113,9 @@ impl<'a, E: Engine> Pipeline<'a, E> {
     fn run_stage(&mut self, stage: &Stage<E>) -> StageReport {
         let clock = Instant::now();
         let result = (stage.run)(self.state, &mut self.work);
+        if let (Ok(()), Some(job)) = (&result, (stage.job)(&self.work)) {
+            self.pixels.carry_out(job);
+        }
         let us = clock.elapsed().as_nanos() as f64 / 1e3;
         let mut row = StageReport { us, skipped: None, ..StageReport::skipped(stage.id, "") };
         match result {
@@ -130,6 +138,7 @@ impl<'a, E: Engine> Pipeline<'a, E> {
             self.deltas.push(StageDelta { stage: stage.id.into(), buffers });
         }
         row.checks = (stage.check)(self.state, &self.work);
+        row.checks.extend((stage.job)(&self.work).into_iter().flat_map(|job| self.pixels.check(job)));
     }
 
     fn plant_after(&mut self, stage: &Stage<E>) {

@@ -153,6 +153,22 @@ pub enum Overlay {
     },
 }
 
+/// A part of rendering a frame.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Pass {
+    /// What it is: `upload`, `shadow 0`, …, `skin`, `scatter`, `compose`.
+    pub id: String,
+    /// Microseconds that it took; the device's where that can be asked.
+    pub us: f64,
+    /// Why it was not done.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub skipped: Option<String>,
+    /// How many tiles of the screen it worked through; 0 of a pass that has none.
+    pub tiles: u32,
+    /// Of how many.
+    pub of: u32,
+}
+
 /// What a stage did at one event.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StageReport {
@@ -214,6 +230,9 @@ pub struct EventReport {
     /// A checkpoint's frame, or why there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame: Option<String>,
+    /// What was done for the frame.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub passes: Vec<Pass>,
     /// Digest of the whole state, at a checkpoint, at the end and with `--paranoid`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub state: Option<String>,
@@ -249,6 +268,7 @@ impl EventReport {
             cut: false,
             checkpoint: None,
             frame: None,
+            passes: Vec::new(),
             state: None,
             state_buffers: BTreeMap::new(),
             counts: BTreeMap::new(),
@@ -258,10 +278,11 @@ impl EventReport {
         }
     }
 
-    /// The same with every time at zero: two runs of one recording are compared so.
+    /// The same with every time at zero, and without what was done for its frame, which depends on the frame before: two
+    /// runs of one recording are compared so.
     #[must_use]
     pub fn without_times(&self) -> Self {
-        let mut report = self.clone();
+        let mut report = Self { passes: Vec::new(), ..self.clone() };
         report.stages.iter_mut().for_each(|s| s.us = 0.0);
         report
     }

@@ -16,7 +16,7 @@ pub(super) type Open<'a> = dyn Fn(&Path, Options) -> Result<Box<dyn Replay>, Str
 
 /// Opens a recording's file.
 pub(super) fn open_file(path: &Path, options: Options) -> Result<Box<dyn Replay>, String> {
-    replay::open_file(path, options).map_err(|error| error.to_string())
+    replay::open_file(path, options, None).map_err(|error| error.to_string())
 }
 
 /// Why there is no run to look at.
