@@ -45,7 +45,7 @@ const ROOMS: &[Room] = &[
     },
     Room {
         name: "replay",
-        may_name: &["assets", "engine", "mesh", "recording", "report"],
+        may_name: &["assets", "canvas", "engine", "mesh", "recording", "report"],
         why: "the session drives engines, and knows no goldens and no front end",
     },
     Room {
@@ -55,7 +55,7 @@ const ROOMS: &[Room] = &[
     },
     Room {
         name: "measure",
-        may_name: &["assets", "engine", "geometry", "mesh", "recording", "replay", "report"],
+        may_name: &["assets", "canvas", "engine", "geometry", "mesh", "recording", "replay", "report"],
         why: "it times whatever there is, and answers with reports",
     },
     Room {

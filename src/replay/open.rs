@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::{Options, Replay, Session};
 use crate::assets::{self, AssetError, CacheOptions, Loaded, SceneSettings};
+use crate::canvas::look::Look;
 use crate::engine::Engine;
 use crate::engine::wound::{self, Wound};
 use crate::recording::{self, AnyRecording, ReadError, Recording, Script, ScriptError};
@@ -121,7 +122,8 @@ fn session<E: Engine>(state: E::State, recording: &Recording<E::Event>, options:
 
 fn wound_scene(settings: &SceneSettings, viewport: [u32; 2]) -> wound::Scene {
     let SceneSettings { unit_cm, snap_px, fov_y, target, azimuth, zenith, distance } = *settings;
-    wound::Scene { viewport, unit_cm, snap_px, fov_y, target, azimuth, zenith, distance }
+    let (look, map_size) = (Look::default(), [1024; 2]);
+    wound::Scene { viewport, unit_cm, snap_px, fov_y, target, azimuth, zenith, distance, look, map_size }
 }
 
 fn require_same(recording: &AnyRecording, scene: &Loaded) -> Result<(), OpenError> {

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::{DVec3, Vec2};
 
+use crate::canvas::look::Look;
 use crate::engine::wound::carve::Carved;
 use crate::engine::wound::chain::Chain;
 use crate::engine::wound::{Cut, Mode, Pick, Scene, State, Work, Wound, WoundEvent};
@@ -119,6 +120,8 @@ pub(super) fn state(mesh: &IndexedMesh) -> State {
         azimuth: 0.0,
         zenith: std::f64::consts::FRAC_PI_2,
         distance: None,
+        look: Look::default(),
+        map_size: [1024; 2],
     };
     State::new(Mesh::build(mesh).unwrap(), scene)
 }
