@@ -146,7 +146,10 @@ pub(super) fn run(state: &mut State, event: &WoundEvent) -> (Outcome, String) {
 }
 
 fn through_stages(state: &mut State, work: &mut Work, event: &WoundEvent) -> Result<(), Rejection> {
-    for stage in Wound::STAGES.iter().filter(|s| (s.part)(work) == Part::Run).collect::<Vec<_>>() {
+    for stage in Wound::STAGES {
+        if (stage.part)(work) != Part::Run {
+            continue;
+        }
         (stage.run)(state, work)?;
         let broken: Vec<_> = (stage.check)(state, work).into_iter().filter(|c| !c.ok).collect();
         assert!(broken.is_empty(), "{} of {event:?}: {broken:#?}", stage.id);
