@@ -159,7 +159,8 @@ fn renderer(scene: &Loaded, studio: &dyn Studio) -> Result<Box<dyn Renderer>, Op
 
 fn wound_scene(settings: &SceneSettings, viewport: [u32; 2]) -> wound::Scene {
     let SceneSettings { unit_cm, snap_px, fov_y, target, azimuth, zenith, distance } = *settings;
-    wound::Scene { viewport, unit_cm, snap_px, fov_y, target, azimuth, zenith, distance }
+    let (look, map_size) = (Look::default(), [1024; 2]);
+    wound::Scene { viewport, unit_cm, snap_px, fov_y, target, azimuth, zenith, distance, look, map_size }
 }
 
 fn require_same(recording: &AnyRecording, scene: &Loaded) -> Result<(), OpenError> {
