@@ -120,7 +120,7 @@ fn session<E: Engine>(state: E::State, recording: &Recording<E::Event>, options:
 }
 
 fn wound_scene(settings: &SceneSettings, viewport: [u32; 2]) -> wound::Scene {
-    let SceneSettings { unit_cm, snap_px, fov_y, target, azimuth, zenith, distance } = *settings;
+    let SceneSettings { unit_cm, snap_px, fov_y, target, azimuth, zenith, distance, .. } = *settings;
     wound::Scene { viewport, unit_cm, snap_px, fov_y, target, azimuth, zenith, distance }
 }
 
