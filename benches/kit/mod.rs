@@ -65,6 +65,6 @@ pub(crate) fn stage(id: &str) -> &'static Stage<Wound> {
 
 /// How a scene is looked at.
 pub(crate) fn look(settings: &SceneSettings, viewport: [u32; 2]) -> Scene {
-    let SceneSettings { unit_cm, snap_px, fov_y, target, azimuth, zenith, distance } = *settings;
+    let SceneSettings { unit_cm, snap_px, fov_y, target, azimuth, zenith, distance, .. } = *settings;
     Scene { viewport, unit_cm, snap_px, fov_y, target, azimuth, zenith, distance }
 }
