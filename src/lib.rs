@@ -51,6 +51,7 @@ pub mod geometry;
 pub mod measure;
 pub mod mesh;
 pub mod recording;
+pub mod render;
 pub mod replay;
 pub mod report;
 pub mod verify;

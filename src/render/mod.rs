@@ -1,0 +1,4 @@
+//! Those who make pixels.
+
+#[cfg(feature = "gpu")]
+pub mod gpu;
