@@ -7,6 +7,7 @@
 //! | [`geometry`] | exact predicates, rays, frames, the bounding volume hierarchy; knows nothing of ours |
 //! | [`mesh`] | typed ids, topology, edits, attributes, journal, checks |
 //! | [`canvas`] | what can be asked of pixels, as data: jobs, frames, the traits of renderers |
+//! | [`render`] | pixels: the CPU reference and the GPU, both carrying out what `canvas` defines |
 //! | [`assets`] | files: OBJ, glTF, PLY, scenes, the binary cache, the built-in scenes |
 //! | [`recording`] | the file format and its JSON script, the reducer |
 //! | [`report`] | checks, outcomes, reports: plain data that any front end can show |

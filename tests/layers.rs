@@ -29,6 +29,11 @@ const ROOMS: &[Room] = &[
         why: "what can be asked of pixels, as data: no pixels, no engine, no renderer",
     },
     Room {
+        name: "render",
+        may_name: &["canvas", "mesh", "report"],
+        why: "a renderer sees jobs and meshes: it knows no engine, file or session",
+    },
+    Room {
         name: "engine",
         may_name: &["canvas", "geometry", "mesh", "report"],
         why: "an engine knows no front end, file, recording or session",
@@ -86,8 +91,8 @@ const BANS: &[Ban] = &[
     Ban { path: "std::env::var", but: &[], why: "an environment must not decide what a run does" },
     Ban {
         path: "std::time",
-        but: &["replay", "verify", "measure", "cli"],
-        why: "only what times a run knows a clock",
+        but: &["replay", "render", "verify", "measure", "cli"],
+        why: "only what times a run, or a pass of a frame, knows a clock",
     },
     Ban { path: "std::time::SystemTime", but: &[], why: "a run does not depend on its date" },
     Ban {
