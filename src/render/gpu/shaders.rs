@@ -21,7 +21,13 @@ macro_rules! wgsl {
 }
 
 /// All of them. The adapter's digest is over their texts.
-pub(crate) const SHADERS: &[Shader] = &[Shader { name: "shadow", parts: wgsl!("shadow") }];
+pub(crate) const SHADERS: &[Shader] = &[
+    Shader { name: "shadow", parts: wgsl!("shadow") },
+    Shader { name: "skin", parts: wgsl!("srgb", "maps", "light", "skin") },
+    Shader { name: "tiles", parts: wgsl!("tiles") },
+    Shader { name: "scatter", parts: wgsl!("scatter") },
+    Shader { name: "compose", parts: wgsl!("srgb", "compose") },
+];
 
 /// A shader by its name.
 pub(crate) fn named(name: &str) -> Option<&'static Shader> {
