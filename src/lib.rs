@@ -7,11 +7,11 @@
 //! | [`geometry`] | exact predicates, rays, frames, the bounding volume hierarchy; knows nothing of ours |
 //! | [`mesh`] | typed ids, topology, edits, attributes, journal, checks |
 //! | [`canvas`] | what can be asked of pixels, as data: jobs, frames, the traits of renderers |
-//! | [`render`] | pixels: the CPU reference and the GPU, both carrying out what `canvas` defines |
 //! | [`assets`] | files: OBJ, glTF, PLY, scenes, the binary cache, the built-in scenes |
 //! | [`recording`] | the file format and its JSON script, the reducer |
 //! | [`report`] | checks, outcomes, reports: plain data that any front end can show |
 //! | [`engine`] | what an engine is; `wound` is one |
+//! | [`render`] | who carries out what can be asked of pixels: the CPU reference, the GPU |
 //! | [`replay`] | the session: events through stages, clock, digests, checks, journal, keyframes, seek |
 //! | [`verify`] | goldens: compare, bless |
 //! | [`measure`] | time against error, stability, scaling, the thesis's tables |

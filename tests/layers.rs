@@ -29,11 +29,6 @@ const ROOMS: &[Room] = &[
         why: "what can be asked of pixels, as data: no pixels, no engine, no renderer",
     },
     Room {
-        name: "render",
-        may_name: &["canvas", "mesh", "report"],
-        why: "a renderer sees jobs and meshes: it knows no engine, file or session",
-    },
-    Room {
         name: "engine",
         may_name: &["canvas", "geometry", "mesh", "report"],
         why: "an engine knows no front end, file, recording or session",
@@ -47,6 +42,11 @@ const ROOMS: &[Room] = &[
         name: "assets",
         may_name: &["geometry", "mesh", "recording"],
         why: "it makes meshes of what a recording names, and knows nothing of cuts",
+    },
+    Room {
+        name: "render",
+        may_name: &["canvas", "geometry", "mesh", "report"],
+        why: "it carries jobs out, and knows no engine, file or session",
     },
     Room {
         name: "replay",

@@ -9,6 +9,8 @@
 
 use std::sync::LazyLock;
 
+use super::sat;
+
 /// Texels along u.
 pub const WIDTH: usize = 256;
 /// Texels along m².
@@ -42,7 +44,7 @@ fn texel(u: f64, m2: f64) -> f32 {
 /// D at a positive n · h and a roughness, by the table; a roughness outside of [`LEAST_ROUGHNESS`] to 1 counts as the nearest.
 #[inline]
 pub fn lookup(table: &[f32], cos: f32, roughness: f32) -> f32 {
-    let (m, c) = (roughness.max(LEAST_ROUGHNESS).min(1.0), cos.max(0.0).min(1.0));
+    let (m, c) = (sat(roughness).max(LEAST_ROUGHNESS), sat(cos));
     let (m2, c2) = (m * m, c * c);
     let (x, y) = (c2 * m2 / (c2 * m2 + 1.0 - c2) * (WIDTH - 1) as f32, m2 * (HEIGHT - 1) as f32);
     let (i, j) = ((x as usize).min(WIDTH - 2), (y as usize).min(HEIGHT - 2));

@@ -5,10 +5,11 @@
 
 use std::sync::LazyLock;
 
-/// The linear light of an sRGB value from 0 to 1; what lies outside counts as the nearest.
+use super::sat;
+
+/// The linear light of an sRGB value from 0 to 1; what lies outside counts as the nearest, a NaN as 0.
 pub fn decode(value: f64) -> f64 {
-    // A NaN counts as 0, which max() makes of it.
-    let value = value.max(0.0).min(1.0);
+    let value = if value > 0.0 { value.min(1.0) } else { 0.0 };
     if value <= 0.04045 { value / 12.92 } else { libm::pow((value + 0.055) / 1.055, 2.4) }
 }
 
@@ -54,7 +55,7 @@ impl Encoder {
     /// The byte nearest to the sRGB value of this light, clamped to 0 … 1; a NaN counts as 0.
     #[inline]
     pub fn byte(&self, light: f32) -> u8 {
-        let light = light.max(0.0).min(1.0);
+        let light = sat(light);
         let byte = self.first[(light * BUCKETS as f32) as usize];
         byte + u8::from(self.begins[usize::from(byte)] <= light)
     }
