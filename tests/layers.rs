@@ -44,6 +44,11 @@ const ROOMS: &[Room] = &[
         why: "it makes meshes of what a recording names, and knows nothing of cuts",
     },
     Room {
+        name: "render",
+        may_name: &["canvas", "geometry", "mesh", "report"],
+        why: "it carries jobs out, and knows no engine, file or session",
+    },
+    Room {
         name: "replay",
         may_name: &["assets", "engine", "mesh", "recording", "report"],
         why: "the session drives engines, and knows no goldens and no front end",

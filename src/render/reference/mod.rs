@@ -1,0 +1,3 @@
+//! The CPU reference: the oracle for pixels.
+
+pub mod painter;
