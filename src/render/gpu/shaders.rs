@@ -21,7 +21,12 @@ macro_rules! wgsl {
 }
 
 /// All of them. The adapter's digest is over their texts.
-pub(crate) const SHADERS: &[Shader] = &[Shader { name: "shadow", parts: wgsl!("shadow") }];
+pub(crate) const SHADERS: &[Shader] = &[
+    Shader { name: "patch", parts: wgsl!("noise", "patch") },
+    Shader { name: "place", parts: wgsl!("place") },
+    Shader { name: "paint", parts: wgsl!("noise", "place", "paint") },
+    Shader { name: "shadow", parts: wgsl!("shadow") },
+];
 
 /// A shader by its name.
 pub(crate) fn named(name: &str) -> Option<&'static Shader> {
