@@ -9,54 +9,53 @@ struct Fbm {
     persistence: f32,
 }
 
-fn modulo_289(x: f32) -> f32 {
-    return x - floor(x * (1.0 / 289.0)) * 289.0;
+// No scene may ask for more.
+const MOST_OCTAVES = 16u;
+
+// An integer's remainder by 289. Half a step off the integers, so that no rounding makes 289 of 0.
+fn remainder(x: f32) -> f32 {
+    return x - floor((x + 0.5) * (1.0 / 289.0)) * 289.0;
 }
 
 // The lattice's hash of an integer below 289.
 fn permuted(x: f32) -> f32 {
-    return modulo_289((x * 34.0 + 1.0) * x);
+    return remainder((34.0 * x + 1.0) * x);
 }
 
-// A gradient, at one of 41 places of a diamond.
-fn gradient(hash: f32) -> vec2f {
-    let x = fract(hash * (1.0 / 41.0)) * 2.0 - 1.0;
-    return vec2f(x - floor(x + 0.5), abs(x) - 0.5);
+// The gradient of a hash, one of 41 on a diamond made about unit length, times the way from its lattice point.
+fn slope(hash: f32, away: vec2f) -> f32 {
+    let place = 2.0 * fract(hash / 41.0) - 1.0;
+    let x = place - floor(place + 0.5);
+    let y = abs(place) - 0.5;
+    let unit = 1.79284291400159 - 0.85373472095314 * (x * x + y * y);
+    return unit * (x * away.x + y * away.y);
 }
 
-// About 1/√r², near what gradients measure.
-fn inverse_root(r2: f32) -> f32 {
-    return 1.79284291400159 - 0.85373472095314 * r2;
+// What a corner of a cell, by its coordinates, contributes to Perlin's noise this far from it.
+fn perlin_corner(corner: vec2f, away: vec2f) -> f32 {
+    return slope(permuted(permuted(remainder(corner.x)) + remainder(corner.y)), away);
 }
 
-fn dot2(a: vec2f, b: vec2f) -> f32 {
-    return a.x * b.x + a.y * b.y;
-}
-
-// What the lattice's corner contributes to Perlin's noise at a place this far from it.
-fn slope(corner: vec2f, away: vec2f) -> f32 {
-    let g = gradient(permuted(permuted(modulo_289(corner.x)) + modulo_289(corner.y)));
-    return inverse_root(dot2(g, g)) * dot2(g, away);
+fn linear(a: f32, b: f32, t: f32) -> f32 {
+    return a + (b - a) * t;
 }
 
 fn perlin(p: vec2f) -> f32 {
     let cell = floor(p);
     let at = p - cell;
-    let n00 = slope(cell, at);
-    let n10 = slope(cell + vec2f(1.0, 0.0), at - vec2f(1.0, 0.0));
-    let n01 = slope(cell + vec2f(0.0, 1.0), at - vec2f(0.0, 1.0));
-    let n11 = slope(cell + vec2f(1.0, 1.0), at - vec2f(1.0, 1.0));
+    let n00 = perlin_corner(cell, at);
+    let n10 = perlin_corner(cell + vec2f(1.0, 0.0), at - vec2f(1.0, 0.0));
+    let n01 = perlin_corner(cell + vec2f(0.0, 1.0), at - vec2f(0.0, 1.0));
+    let n11 = perlin_corner(cell + vec2f(1.0, 1.0), at - vec2f(1.0, 1.0));
     let fade = at * at * at * (at * (at * 6.0 - 15.0) + 10.0);
-    let near = n00 + (n10 - n00) * fade.x;
-    let far = n01 + (n11 - n01) * fade.x;
-    return 2.3 * (near + (far - near) * fade.y);
+    return 2.3 * linear(linear(n00, n10, fade.x), linear(n01, n11, fade.x), fade.y);
 }
 
-// What a simplex's corner contributes at a place this far from it.
-fn kernel(corner: vec2f, away: vec2f) -> f32 {
-    let g = gradient(permuted(permuted(corner.y) + corner.x));
-    let m = max(0.5 - dot2(away, away), 0.0);
-    return m * m * m * m * inverse_root(dot2(g, g)) * dot2(g, away);
+// What a corner of a simplex, by its remainders, contributes this far from it.
+fn simplex_corner(corner: vec2f, away: vec2f) -> f32 {
+    let weight = max(0.5 - (away.x * away.x + away.y * away.y), 0.0);
+    let square = weight * weight;
+    return square * square * slope(permuted(permuted(corner.y) + corner.x), away);
 }
 
 fn simplex(p: vec2f) -> f32 {
@@ -65,18 +64,19 @@ fn simplex(p: vec2f) -> f32 {
     let cell = floor(p + (p.x + p.y) * SKEW);
     let first = p - cell + (cell.x + cell.y) * UNSKEW;
     let middle = select(vec2f(0.0, 1.0), vec2f(1.0, 0.0), first.x > first.y);
-    let second = first + UNSKEW - middle;
-    let third = first + (2.0 * UNSKEW - 1.0);
-    let corner = vec2f(modulo_289(cell.x), modulo_289(cell.y));
-    return 130.0 * (kernel(corner, first) + kernel(corner + middle, second) + kernel(corner + 1.0, third));
+    let second = first - middle + UNSKEW;
+    let third = first - 1.0 + 2.0 * UNSKEW;
+    let corner = vec2f(remainder(cell.x), remainder(cell.y));
+    let sum = simplex_corner(corner, first) + simplex_corner(corner + middle, second);
+    return 130.0 * (sum + simplex_corner(corner + 1.0, third));
 }
 
 fn fbm(p: vec2f, noise: Fbm) -> f32 {
     var sum = 0.0;
     var frequency = noise.frequency;
     var amplitude = noise.amplitude;
-    for (var octave = 0u; octave < noise.octaves; octave++) {
-        sum += simplex(p * frequency) * amplitude;
+    for (var octave = 0u; octave < min(noise.octaves, MOST_OCTAVES); octave++) {
+        sum += amplitude * simplex(p * frequency);
         frequency *= noise.lacunarity;
         amplitude *= noise.persistence;
     }

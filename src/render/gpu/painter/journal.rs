@@ -151,18 +151,27 @@ fn put_back(
     );
 }
 
-/// A painting that is on the maps.
+/// What a painting left beside the maps.
 #[derive(Debug)]
-pub(super) struct Applied {
-    pub(super) painting: Arc<Painting>,
-    /// `None` once it was dropped.
-    saved: Option<Vec<Saved>>,
+pub(super) struct Trace {
+    /// What it painted over.
+    pub(super) saved: Vec<Saved>,
+    /// Which texels it could not place, [`Faults`](super::paint::Faults).
+    pub(super) faults: wgpu::Buffer,
 }
 
-impl Applied {
+impl Trace {
     fn bytes(&self) -> u64 {
-        self.saved.iter().flatten().map(|saved| saved.block.bytes()).sum()
+        self.saved.iter().map(|saved| saved.block.bytes()).sum()
     }
+}
+
+/// A painting that is on the maps.
+#[derive(Debug)]
+struct Applied {
+    painting: Arc<Painting>,
+    /// `None` once it was dropped.
+    trace: Option<Trace>,
 }
 
 /// The paintings that are on the maps, and how to take them back.
@@ -181,23 +190,20 @@ impl Journal {
     }
 
     /// Notes a painting, and drops what is too much.
-    pub(super) fn push(&mut self, painting: Arc<Painting>, saved: Vec<Saved>) {
-        self.applied.push(Applied { painting, saved: Some(saved) });
-        self.kept += self.applied.last().map_or(0, Applied::bytes);
-        let older = self.applied.len() - 1;
-        for applied in self.applied[..older].iter_mut().filter(|applied| applied.saved.is_some()) {
-            if self.kept <= self.budget {
-                break;
+    pub(super) fn push(&mut self, painting: Arc<Painting>, trace: Trace) {
+        self.kept += trace.bytes();
+        for older in &mut self.applied {
+            if self.kept > self.budget {
+                self.kept -= older.trace.take().map_or(0, |trace| trace.bytes());
             }
-            self.kept -= applied.bytes();
-            applied.saved = None;
         }
+        self.applied.push(Applied { painting, trace: Some(trace) });
     }
 
-    /// The painting that came last, and what it painted over.
-    pub(super) fn last(&self) -> Option<(&Painting, &[Saved])> {
+    /// The painting that came last, and what it left.
+    pub(super) fn last(&self) -> Option<(&Painting, &Trace)> {
         let last = self.applied.last()?;
-        Some((&last.painting, last.saved.as_deref()?))
+        Some((&last.painting, last.trace.as_ref()?))
     }
 
     /// How many paintings at the beginning are the same as these.
@@ -210,14 +216,14 @@ impl Journal {
 
     /// What must be put back so that only so many paintings are left, in this order; `None` if something of it was dropped.
     pub(super) fn back_to(&self, count: usize) -> Option<Vec<&Saved>> {
-        let later = self.applied[count..].iter().rev().map(|applied| applied.saved.as_deref());
-        let all: Vec<&[Saved]> = later.collect::<Option<_>>()?;
-        Some(all.into_iter().flatten().collect())
+        let later = self.applied[count..].iter().rev().map(|applied| applied.trace.as_ref());
+        let all: Vec<&Trace> = later.collect::<Option<_>>()?;
+        Some(all.into_iter().flat_map(|trace| &trace.saved).collect())
     }
 
     /// Forgets all but the first so many.
     pub(super) fn truncate(&mut self, count: usize) {
         self.applied.truncate(count);
-        self.kept = self.applied.iter().map(Applied::bytes).sum();
+        self.kept = self.applied.iter().flat_map(|applied| &applied.trace).map(Trace::bytes).sum();
     }
 }

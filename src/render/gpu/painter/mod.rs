@@ -12,6 +12,7 @@
 //! The maps never leave the device but to be looked at. Going back restores the saved tiles, bit for bit; what is no longer saved is made
 //! again from the scene's own maps. Pipelines and the mask of the skin's texels are made when something is first painted.
 
+mod check;
 mod journal;
 mod maps;
 mod paint;
@@ -25,9 +26,9 @@ use std::sync::Arc;
 
 use wgpu::{BindingResource, BufferUsages, TextureFormat, TextureUsages};
 
-use self::journal::{Block, Journal, Saved, blocks};
+use self::journal::{Block, Journal, Saved, Trace, blocks};
 use self::maps::Pair;
-use self::paint::{PaintPass, Told};
+use self::paint::{Faults, PaintPass, Told};
 use self::patch::{Made, PatchPass};
 use self::place::{Drawn, PlacePass, Triangle};
 use super::device::Device;
@@ -64,8 +65,8 @@ pub struct Painter {
     scene: Arc<Maps>,
     maps: Pair,
     charts: Charts,
-    /// 1 where a face of the skin lies; made when something is first painted.
-    mask: Option<wgpu::Texture>,
+    /// Made when something is first painted.
+    mask: Option<Mask>,
     passes: Option<Arc<Passes>>,
     /// Where triangles are placed; it grows with what is painted.
     target: Option<wgpu::Texture>,
@@ -126,7 +127,8 @@ impl Painter {
         self.device.submit("cut", |encoder| self.record(encoder, &passes, &cut))?;
         self.device.wait()?;
         self.made = Some(cut.wound.made);
-        self.journal.push(painting.clone(), cut.blocks.into_iter().map(|block| block.saved).collect());
+        let saved = cut.blocks.into_iter().map(|block| block.saved).collect();
+        self.journal.push(painting.clone(), Trace { saved, faults: cut.faults });
         Ok(())
     }
 
@@ -170,14 +172,15 @@ impl Painter {
     /// The mask of the texels that faces cover.
     fn mask(&mut self) -> Result<wgpu::Texture, RenderError> {
         if let Some(mask) = &self.mask {
-            return Ok(mask.clone());
+            return Ok(mask.texture.clone());
         }
         let (size, usage) = (self.maps.size(), TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST);
-        let mask = self.device.texture("covered texels", size, TextureFormat::R8Uint, usage)?;
-        maps::write(&self.device, &mask, &self.charts.covered(size), 1)?;
+        let texture = self.device.texture("covered texels", size, TextureFormat::R8Uint, usage)?;
+        let covered = self.charts.covered(size);
+        maps::write(&self.device, &texture, &covered, 1)?;
         // Cuts do not change it, so the charts have done their work.
         self.charts = Charts::default();
-        Ok(self.mask.insert(mask).clone())
+        Ok(self.mask.insert(Mask { texture, covered }).texture.clone())
     }
 
     /// A target with at least so many rows of tiles.
@@ -209,9 +212,11 @@ impl Painter {
         let triangles = &self.device.filled("triangles", &record::bytes(&listed), BufferUsages::STORAGE)?;
         let job = &PaintPass::job(&self.device, painting)?;
         let drawn = Drawn { layout: &layout, triangles, mask: &mask };
-        let told = Told { job, triangles, wound: &wound.made.texels, placed: &target };
+        let faults = Faults::none(&self.device)?;
+        let texels = &wound.made.texels;
+        let told = Told { job, triangles, wound: texels, placed: &target, faults: &faults };
         let blocks = blocks.into_iter().map(|block| self.upload(passes, block, &drawn, &told));
-        Ok(Cut { blocks: blocks.collect::<Result<_, _>>()?, wound, target })
+        Ok(Cut { blocks: blocks.collect::<Result<_, _>>()?, wound, target, faults })
     }
 
     /// Uploads what a block of a cut needs.
@@ -259,6 +264,14 @@ struct Cut {
     wound: Wound,
     blocks: Vec<Work>,
     target: wgpu::TextureView,
+    faults: wgpu::Buffer,
+}
+
+/// The mask of the skin's texels, there and here: 1 where a face lies.
+#[derive(Debug)]
+struct Mask {
+    texture: wgpu::Texture,
+    covered: Vec<u8>,
 }
 
 /// A compute pipeline of the shader of this name.

@@ -8,7 +8,7 @@ use wgpu::BufferUsages;
 use super::journal::{Run, Saved};
 use super::maps::Pair;
 use super::patch::Fbm;
-use super::record::{bytes, record};
+use super::record::{Words, bytes, record};
 use super::{bound, compute_pipeline};
 use crate::canvas::RenderError;
 use crate::canvas::job::Painting;
@@ -43,6 +43,46 @@ record! {
         saved_discolor: u32,
         stride: u32,
         unused: u32,
+    }
+}
+
+/// How many texels without a place are told.
+const FAULTS: usize = 16;
+
+record! {
+    /// A texel whose (s, d) are no numbers.
+    Fault {
+        texel: [u32; 2],
+        place: [f32; 2],
+    }
+}
+
+record! {
+    /// How many there are, and the first of them.
+    Faults {
+        count: u32,
+        unused: u32,
+        first: [Fault; FAULTS],
+    }
+}
+
+impl Faults {
+    /// A buffer that tells of none.
+    pub(super) fn none(device: &Device) -> Result<wgpu::Buffer, RenderError> {
+        let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
+        device.buffer("texels without a place", 4 * Self::COUNT as u64, usage)
+    }
+
+    /// The texels that a buffer tells of, with their (s, d).
+    pub(super) fn read(
+        device: &Device,
+        buffer: &wgpu::Buffer,
+    ) -> Result<Vec<([u32; 2], [f32; 2])>, RenderError> {
+        let bytes = device.read_buffer(buffer, 0..4 * Self::COUNT as u64)?;
+        let words: Vec<u32> = bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect();
+        let told = words[0].min(FAULTS as u32) as usize;
+        let faults = words[2..].as_chunks::<{ Fault::COUNT }>().0.iter().take(told);
+        Ok(faults.map(|[x, y, s, d]| ([*x, *y], [*s, *d].map(f32::from_bits))).collect())
     }
 }
 
@@ -86,6 +126,8 @@ pub(super) struct Told<'a> {
     pub(super) wound: &'a wgpu::Buffer,
     /// The target that triangles were drawn into.
     pub(super) placed: &'a wgpu::TextureView,
+    /// The faults are told in here.
+    pub(super) faults: &'a wgpu::Buffer,
 }
 
 /// What a block is painted with.
@@ -130,6 +172,7 @@ impl PaintPass {
             (7, wgpu::BindingResource::TextureView(told.placed)),
             (8, wgpu::BindingResource::TextureView(&color)),
             (9, wgpu::BindingResource::TextureView(&discolor)),
+            (10, told.faults.as_entire_binding()),
         ];
         let bound = bound(device, "paint", &self.0.get_bind_group_layout(0), entries)?;
         Ok(Prepared { bound, tiles: tiles.len() as u32 })
