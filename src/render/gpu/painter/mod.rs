@@ -78,6 +78,15 @@ pub struct Painter {
 impl Painter {
     /// A painter of a scene with nothing painted yet. Of the mesh only the faces' texture coordinates matter.
     pub fn new(device: Arc<Device>, maps: &Arc<Maps>, mesh: &Mesh) -> Result<Self, RenderError> {
+        Self::with_budget(device, maps, mesh, BUDGET)
+    }
+
+    fn with_budget(
+        device: Arc<Device>,
+        maps: &Arc<Maps>,
+        mesh: &Mesh,
+        budget: u64,
+    ) -> Result<Self, RenderError> {
         Ok(Self {
             maps: Pair::new(&device, &maps.color)?,
             device,
@@ -87,7 +96,7 @@ impl Painter {
             passes: None,
             target: None,
             made: None,
-            journal: Journal::new(BUDGET),
+            journal: Journal::new(budget),
         })
     }
 
