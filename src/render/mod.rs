@@ -46,6 +46,12 @@ pub fn studio(choice: Choice) -> Result<Box<dyn Studio>, RenderError> {
     }
 }
 
+#[cfg(feature = "gpu")]
+fn gpu() -> Result<Box<dyn Studio>, RenderError> {
+    Ok(Box::new(gpu::Gpu::open()?))
+}
+
+#[cfg(not(feature = "gpu"))]
 fn gpu() -> Result<Box<dyn Studio>, RenderError> {
     Err(RenderError::NoAdapter("this program was built without the feature `gpu`".into()))
 }

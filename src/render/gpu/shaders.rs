@@ -27,6 +27,9 @@ pub(crate) const SHADERS: &[Shader] = &[
     Shader { name: "tiles", parts: wgsl!("tiles") },
     Shader { name: "scatter", parts: wgsl!("scatter") },
     Shader { name: "compose", parts: wgsl!("srgb", "compose") },
+    Shader { name: "patch", parts: wgsl!("noise", "patch") },
+    Shader { name: "place", parts: wgsl!("place") },
+    Shader { name: "paint", parts: wgsl!("noise", "place", "paint") },
 ];
 
 /// A shader by its name.
