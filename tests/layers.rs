@@ -40,8 +40,8 @@ const ROOMS: &[Room] = &[
     },
     Room {
         name: "assets",
-        may_name: &["geometry", "mesh", "recording"],
-        why: "it makes meshes of what a recording names, and knows nothing of cuts",
+        may_name: &["canvas", "geometry", "mesh", "recording"],
+        why: "it makes meshes and maps of what a recording names, and knows nothing of cuts",
     },
     Room {
         name: "replay",

@@ -1,4 +1,5 @@
-//! Files: meshes as OBJ, glTF and PLY, scenes as JSON, and the binary cache of finished meshes. The only room that opens files.
+//! Files: meshes as OBJ, glTF and PLY, scenes as JSON, maps as PNG, JPEG and DDS, and the binary cache of finished meshes. The only room that opens
+//! files.
 //!
 //! A mesh goes through four hands: a reader (`obj`, `ply`, `gltf`) makes triangles with their places in the file; `weld` makes equal positions one
 //! node; `repair` drops, turns and splits what can be mended in one way, and refuses the rest with the line or face named;
@@ -17,6 +18,7 @@ mod files;
 mod gltf;
 pub mod inspect;
 mod links;
+mod maps;
 mod obj;
 mod open;
 mod ply;
@@ -33,6 +35,7 @@ pub use cache::CacheOptions;
 pub use error::{AssetError, Fault, FaultKind, Place};
 pub use files::{is_file, is_folder, list_files, read_file, write_file};
 pub use inspect::{MeshFacts, inspect};
+pub use maps::{MapSources, read_png, write_png};
 pub use open::{Loaded, open};
 pub use scene::SceneSettings;
 

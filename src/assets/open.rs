@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use glam::{DVec3, Vec2};
 
 use super::error::{AssetError, Fault, FaultKind, Place};
-use super::scene::{self, SceneSettings};
+use super::maps::MapSources;
+use super::scene::{self, MapFiles, SceneSettings};
 use super::source::Source;
 use super::{CacheOptions, Note, builtin, cache, read_file};
 use crate::geometry::predicates::collinear;
@@ -22,9 +23,11 @@ pub struct Loaded {
     pub mesh: Mesh,
     /// Everything else that the scene says.
     pub settings: SceneSettings,
+    /// Where the maps come from.
+    pub maps: MapSources,
     /// What was changed or passed over while reading.
     pub notes: Vec<Note>,
-    /// blake3 of the settings; what a scene file looks like does not matter, what it says does.
+    /// blake3 of the settings and of the maps' files; what a scene file looks like does not matter, what it says does.
     pub scene_hash: [u8; 32],
     /// blake3 of the mesh file's bytes; of a mesh inline or made by code, that of its positions, faces and texture coordinates.
     pub mesh_hash: [u8; 32],
@@ -39,26 +42,50 @@ struct Opened {
     from_cache: bool,
 }
 
-/// Opens a scene. Paths in it are relative to `base`, those in a scene file to that file.
+/// Opens a scene. Paths in it are relative to `base`, those in a scene file to that file. Of maps only the headers are read, but for
+/// a picture of the surroundings, which becomes the look's irradiance.
 pub fn open(scene: &SceneRef, base: &Path, options: &CacheOptions) -> Result<Loaded, AssetError> {
-    let (opened, settings) = match scene {
-        SceneRef::Builtin(name) => (open_builtin(name)?, SceneSettings::default()),
-        SceneRef::File(path) => open_scene_file(&base.join(path), options)?,
-        SceneRef::Mesh(path) => (open_mesh(&base.join(path), options)?, SceneSettings::default()),
-        SceneRef::Inline(inline) => (open_inline(inline)?, SceneSettings::default()),
+    let plain = |opened: Opened, builtin: Option<&str>| {
+        opened.into_loaded(builtin, SceneSettings::default(), &MapFiles::default(), base)
     };
-    let Opened { mesh, notes, hash: mesh_hash, from_cache } = opened;
-    Ok(Loaded { mesh, scene_hash: settings.hash(), settings, notes, mesh_hash, from_cache })
+    match scene {
+        SceneRef::Builtin(name) => plain(open_builtin(name)?, Some(name)),
+        SceneRef::File(path) => open_scene_file(&base.join(path), options),
+        SceneRef::Mesh(path) => plain(open_mesh(&base.join(path), options)?, None),
+        SceneRef::Inline(inline) => plain(open_inline(inline)?, None),
+    }
 }
 
-fn open_scene_file(path: &Path, options: &CacheOptions) -> Result<(Opened, SceneSettings), AssetError> {
+fn open_scene_file(path: &Path, options: &CacheOptions) -> Result<Loaded, AssetError> {
     let bytes = read_file(path)?;
-    let (mesh, settings) = scene::parse(&bytes).map_err(|fault| fault.in_file(path))?;
-    let opened = match mesh.strip_prefix(BUILTIN) {
-        Some(name) => open_builtin(name),
-        None => open_mesh(&path.parent().unwrap_or(Path::new("")).join(&mesh), options),
+    let (mesh, settings, maps) = scene::parse(&bytes).map_err(|fault| fault.in_file(path))?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let builtin = mesh.strip_prefix(BUILTIN);
+    let opened = match builtin {
+        Some(name) => open_builtin(name)?,
+        None => open_mesh(&folder.join(&mesh), options)?,
     };
-    Ok((opened?, settings))
+    opened.into_loaded(builtin, settings, &maps, folder)
+}
+
+impl Opened {
+    /// With what the scene says besides; the maps' paths are relative to `folder`.
+    fn into_loaded(
+        self,
+        builtin: Option<&str>,
+        mut settings: SceneSettings,
+        files: &MapFiles,
+        folder: &Path,
+    ) -> Result<Loaded, AssetError> {
+        let Self { mesh, notes, hash: mesh_hash, from_cache } = self;
+        let maps = MapSources::new(builtin, mesh.is_textured(), &settings.look.skin);
+        let maps = maps.with_files(files, folder)?;
+        let scene_hash = settings.hash(&maps.hashes());
+        if let Some(irradiance) = maps.irradiance()? {
+            settings.look.ambient.irradiance = irradiance;
+        }
+        Ok(Loaded { mesh, settings, maps, notes, scene_hash, mesh_hash, from_cache })
+    }
 }
 
 fn open_mesh(path: &Path, options: &CacheOptions) -> Result<Opened, AssetError> {

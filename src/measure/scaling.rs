@@ -204,7 +204,7 @@ impl Runner {
 
 /// How a scene of which nothing else is said is looked at.
 pub(super) fn default_scene() -> Scene {
-    let SceneSettings { unit_cm, snap_px, fov_y, target, azimuth, zenith, distance } =
+    let SceneSettings { unit_cm, snap_px, fov_y, target, azimuth, zenith, distance, .. } =
         SceneSettings::default();
     Scene { viewport: VIEWPORT, unit_cm, snap_px, fov_y, target, azimuth, zenith, distance }
 }

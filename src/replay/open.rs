@@ -155,7 +155,7 @@ fn renderer(scene: &Loaded, studio: &dyn Studio) -> Result<Box<dyn Renderer>, Op
 }
 
 fn wound_scene(settings: &SceneSettings, viewport: [u32; 2]) -> wound::Scene {
-    let SceneSettings { unit_cm, snap_px, fov_y, target, azimuth, zenith, distance } = *settings;
+    let SceneSettings { unit_cm, snap_px, fov_y, target, azimuth, zenith, distance, .. } = *settings;
     wound::Scene { viewport, unit_cm, snap_px, fov_y, target, azimuth, zenith, distance }
 }
 

@@ -11,6 +11,7 @@ mod boxes;
 mod bust;
 mod cage;
 mod ear;
+mod maps;
 mod round;
 mod sculpt;
 mod sdf;
@@ -18,6 +19,8 @@ mod sdf;
 mod tests;
 
 use std::fmt;
+
+pub(super) use maps::{MapKind, paint};
 
 use crate::mesh::IndexedMesh;
 

@@ -59,17 +59,35 @@ fn nose(p: DVec3, mut d: f64) -> f64 {
 fn mouth(p: DVec3, mut d: f64) -> f64 {
     d = join(d, ellipsoid(p, dvec3(0.0, -5.3, 6.1), dvec3(3.2, 2.5, 2.5)), 1.8);
     d = carve(d, bar(p, (dvec3(0.0, -3.7, 9.35), 0.25), (dvec3(0.0, -4.6, 9.35), 0.3)), 0.6);
-    let q = dvec3(p.x, p.y, p.z + 0.1 * p.x * p.x);
-    let upper = join(
-        bar(q, (dvec3(0.4, -5.02, 8.65), 0.4), (dvec3(2.4, -5.55, 8.62), 0.16)),
-        ellipsoid(q, dvec3(0.0, -5.2, 8.7), dvec3(0.5, 0.34, 0.4)),
-        0.3,
-    );
-    let lower = bar(q, (dvec3(0.0, -6.15, 8.5), 0.52), (dvec3(2.3, -5.72, 8.6), 0.16));
+    let q = bent(p);
+    let (upper, lower) = (upper_lip(q), lower_lip(q));
     d = join(d, upper, 0.3);
     d = join(d, lower, 0.3);
     d = carve(d, ellipsoid(q, dvec3(0.0, -5.58 + 0.01 * p.x * p.x, 9.1), dvec3(2.8, 0.17, 0.42)), 0.45);
     carve(d, ellipsoid(p, dvec3(0.0, -7.2, 9.35), dvec3(1.9, 0.5, 0.8)), 1.0)
+}
+
+/// The mouth is modelled flat and bent around the teeth.
+fn bent(p: DVec3) -> DVec3 {
+    dvec3(p.x, p.y, p.z + 0.1 * p.x * p.x)
+}
+
+fn upper_lip(q: DVec3) -> f64 {
+    join(
+        bar(q, (dvec3(0.4, -5.02, 8.65), 0.4), (dvec3(2.4, -5.55, 8.62), 0.16)),
+        ellipsoid(q, dvec3(0.0, -5.2, 8.7), dvec3(0.5, 0.34, 0.4)),
+        0.3,
+    )
+}
+
+fn lower_lip(q: DVec3) -> f64 {
+    bar(q, (dvec3(0.0, -6.15, 8.5), 0.52), (dvec3(2.3, -5.72, 8.6), 0.16))
+}
+
+/// How far a point of the face is from the lips alone: about 0 on them.
+pub(super) fn lips(p: DVec3) -> f64 {
+    let q = bent(dvec3(p.x.abs(), p.y, p.z));
+    upper_lip(q).min(lower_lip(q))
 }
 
 /// The eyeball, and the ridges of its two lids, each bent once.
