@@ -204,7 +204,7 @@ mod tests {
         let file = folder.path().join("square.lancet");
         let bytes = to_bytes(&packed()).expect("it has a form");
         assets::write_file(&file, &bytes).expect("written");
-        let mut replay = open_file(&file, Options::default(), None).expect("it opens");
+        let mut replay = open_file(&file, Options::default(), Option::None).expect("it opens");
         use Outcome::{Applied, None, Pending, Rejected};
         let expected = [None, Pending, Applied, Rejected, None, Applied, Applied];
         assert_eq!(outcomes(replay.as_mut()), expected);
@@ -213,8 +213,11 @@ mod tests {
         assert_eq!((run.scene["faces"], run.totals.cuts), (2, 1));
         assert!(run.end.is_some_and(|end| end.counts["faces"] > 2));
         assets::write_file(&file, &bytes[..bytes.len() - 1]).expect("written");
-        assert!(matches!(open_file(&file, Options::default(), None), Err(OpenError::Recording { .. })));
-        let missing = open_file(&folder.path().join("missing"), Options::default(), None);
+        assert!(matches!(
+            open_file(&file, Options::default(), Option::None),
+            Err(OpenError::Recording { .. })
+        ));
+        let missing = open_file(&folder.path().join("missing"), Options::default(), Option::None);
         assert!(matches!(missing, Err(OpenError::Asset(_))));
     }
 
@@ -243,7 +246,8 @@ mod tests {
         mesh[0] ^= 1;
         recording.set_hashes([scene, mesh]);
         let scene = load(&recording);
-        let error = open(&recording, scene, Options::default(), None).err().expect("it is another mesh");
+        let error =
+            open(&recording, scene, Options::default(), Option::None).err().expect("it is another mesh");
         assert!(error.to_string().starts_with("the mesh is not the one"), "{error}");
     }
 }
