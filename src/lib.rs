@@ -12,7 +12,7 @@
 //! | [`report`] | checks, outcomes, reports: plain data that any front end can show |
 //! | [`engine`] | what an engine is; `wound` is one |
 //! | [`replay`] | the session: events through stages, clock, digests, checks, journal, keyframes, seek |
-//! | [`verify`] | goldens: compare, bless |
+//! | [`verify`] | goldens and their pictures: compare, bless, shard and merge, pages |
 //! | [`measure`] | time against error, stability, scaling, the thesis's tables |
 //! | [`cli`] | the command line |
 //!
