@@ -55,7 +55,7 @@ const ROOMS: &[Room] = &[
     },
     Room {
         name: "measure",
-        may_name: &["assets", "engine", "geometry", "mesh", "recording", "replay", "report"],
+        may_name: &["assets", "canvas", "engine", "geometry", "mesh", "recording", "replay", "report"],
         why: "it times whatever there is, and answers with reports",
     },
     Room {

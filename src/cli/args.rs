@@ -24,6 +24,7 @@ pub(super) enum Command {
     Verify(Verify),
     Bless(Bless),
     Replay(Replay),
+    Render(Render),
     Pack(Pack),
     Unpack(Unpack),
     Info(Info),
@@ -38,6 +39,29 @@ pub(super) enum Command {
     Schema(Schema),
     Completions(Completions),
     Man(Man),
+}
+
+/// Who renders.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum Renderer {
+    /// A GPU where there is one, else the CPU reference
+    #[default]
+    Auto,
+    /// A GPU, or a program that plays one, through Vulkan
+    Gpu,
+    /// The CPU reference
+    Reference,
+}
+
+/// How pixels are made.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub(super) struct Pixels {
+    /// Who renders
+    #[arg(long, value_enum, default_value_t, value_name = "WHO")]
+    pub(super) renderer: Renderer,
+    /// Skip nothing, whether a scene needs it or not: the answer is the same
+    #[arg(long)]
+    pub(super) no_skip: bool,
 }
 
 /// Where an answer goes: a file, or `-` for standard output.
@@ -126,6 +150,104 @@ pub(super) struct Replay {
     /// Write where the time went, as a Chrome trace
     #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
     pub(super) trace: Option<Target>,
+    /// Write a picture of the end, as PNG
+    #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
+    pub(super) frame: Option<PathBuf>,
+    /// Draw over it: the mesh's edges, the last cut's line and picks, its faces by configuration
+    #[arg(long, value_enum, value_name = "WHAT", value_delimiter = ',', requires = "frame")]
+    pub(super) overlay: Vec<Overlay>,
+    /// Instead of the frame, a map as it is in the end
+    #[arg(long, value_enum, value_name = "MAP", requires = "frame", conflicts_with = "overlay")]
+    pub(super) map: Option<Map>,
+    #[command(flatten)]
+    pub(super) pixels: Pixels,
+}
+
+/// What is drawn over a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Overlay {
+    /// The mesh's edges
+    Wire,
+    /// The last cut's line and picks
+    Line,
+    /// The faces that it crossed, by configuration
+    Configurations,
+}
+
+/// A map to write.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Map {
+    /// Colour, with the strength of scattering as alpha
+    #[value(alias = "color")]
+    Colour,
+    /// Discoloration
+    Discolor,
+    /// Tangent-space normals
+    Normal,
+    /// Ambient occlusion
+    Occlusion,
+    /// Specular intensity and roughness
+    Specular,
+}
+
+/// Render a scene
+#[derive(Debug, clap::Args)]
+pub(super) struct Render {
+    /// A scene (.json), a mesh (OBJ, glTF, PLY) or builtin:NAME
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub(super) scene: String,
+    /// The picture to write, as PNG
+    #[arg(short, long, value_name = "F", value_hint = ValueHint::FilePath)]
+    pub(super) output: PathBuf,
+    /// Its width and height in pixels
+    #[arg(long, value_name = "WxH", default_value = "1280x720")]
+    pub(super) size: Size,
+    /// Angle around the vertical axis, radians
+    #[arg(long, value_name = "A", allow_negative_numbers = true)]
+    pub(super) azimuth: Option<f64>,
+    /// Angle from straight up, radians, 0 to π
+    #[arg(long, value_name = "Z")]
+    pub(super) zenith: Option<f64>,
+    /// Eye to target, model units
+    #[arg(long, value_name = "D")]
+    pub(super) distance: Option<f64>,
+    /// Change a setting, such as shadows=false
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub(super) set: Vec<Setting>,
+    #[command(flatten)]
+    pub(super) pixels: Pixels,
+    #[command(flatten)]
+    pub(super) json: Json,
+}
+
+/// Width and height in pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Size(pub(super) [u32; 2]);
+
+impl FromStr for Size {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let sides = text.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+        sides.map(Self).ok_or_else(|| format!("`{text}` is not WxH, such as 1280x720"))
+    }
+}
+
+/// A setting by its name, and its value as JSON.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Setting {
+    pub(super) name: String,
+    pub(super) value: serde_json::Value,
+}
+
+impl FromStr for Setting {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wrong = || format!("`{text}` is not NAME=VALUE, such as shadows=false");
+        let (name, value) = text.split_once('=').ok_or_else(wrong)?;
+        Ok(Self { name: name.into(), value: serde_json::from_str(value).map_err(|_| wrong())? })
+    }
 }
 
 /// Where a replay stops.
@@ -220,14 +342,17 @@ pub(super) struct Measure {
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Measured {
-    /// The thesis's eighteen cuts, stage by stage, beside its figures (Lam 2016, Table 6.2)
+    /// The thesis's performance tests, beside its figures: cuts stage by stage, frames, scattering (Lam 2016, §6.5)
     Thesis {
         /// The folder of their recordings
         #[arg(value_name = "DIR", default_value = "recordings/wound", value_hint = ValueHint::DirPath)]
         recordings: PathBuf,
-        /// Run each cut so many times [default: 100; quick: 10]
+        /// Run each cut, and take each frame, so many times [default: 100; quick: 10]
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
         repeat: Option<u32>,
+        /// Who renders
+        #[arg(long, value_enum, default_value_t, value_name = "WHO")]
+        renderer: Renderer,
         #[command(flatten)]
         common: MeasureOptions,
     },

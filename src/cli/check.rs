@@ -40,7 +40,7 @@ pub(super) fn run(typed: &Check, console: &mut Console<'_>) -> Done {
 }
 
 /// A built-in scene by its name, a scene by its extension, else a mesh.
-fn scene(typed: &str) -> SceneRef {
+pub(super) fn scene(typed: &str) -> SceneRef {
     let is_json = Path::new(typed).extension().is_some_and(|e| e.eq_ignore_ascii_case("json"));
     let file = || if is_json { SceneRef::File(typed.into()) } else { SceneRef::Mesh(typed.into()) };
     SceneRef::parse_builtin(typed).unwrap_or_else(file)

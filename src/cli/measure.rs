@@ -9,6 +9,7 @@ use serde::Serialize;
 use super::args::{Measure, MeasureOptions, Measured};
 use super::console::Channel;
 use super::failure::Failure;
+use super::pixels::studio;
 use super::table::TextTable;
 use super::verify::jobs;
 use super::{Console, Done, Status, json};
@@ -19,9 +20,11 @@ use crate::report::Table;
 
 pub(super) fn run(typed: &Measure, console: &mut Console<'_>) -> Done {
     match &typed.what {
-        Measured::Thesis { recordings, repeat, common } => {
-            let repeat = or_else(*repeat, common, [100, 10]);
-            let report = showing(console, |told| thesis::measure(recordings, repeat, told))?;
+        Measured::Thesis { recordings, repeat, renderer, common } => {
+            let cuts = or_else(*repeat, common, [100, 10]);
+            let repeat = thesis::Repeat { cuts, frames: cuts };
+            let studio = studio(*renderer, console)?;
+            let report = showing(console, |told| thesis::measure(recordings, repeat, studio.as_ref(), told))?;
             answer(&report, &report.tables(), common, console)
         }
         Measured::Scaling { rounds, common } => {

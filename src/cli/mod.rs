@@ -19,8 +19,10 @@ mod json;
 mod man;
 mod measure;
 mod pack;
+mod pixels;
 mod place;
 mod reduce;
+mod render;
 mod replay;
 mod scenes;
 mod schema;
@@ -77,6 +79,7 @@ fn dispatch(command: Command, console: &mut Console<'_>) -> Done {
         Command::Verify(typed) => verify::run(&typed, console),
         Command::Bless(typed) => bless::run(&typed, console),
         Command::Replay(typed) => replay::run(&typed, console),
+        Command::Render(typed) => render::run(&typed, console),
         Command::Pack(typed) => pack::run(&typed, console),
         Command::Unpack(typed) => unpack::run(&typed, console),
         Command::Info(typed) => info::run(&typed, console),

@@ -1,11 +1,14 @@
 //! `lancet replay`: one recording, stage by stage.
 
-use super::args::{Replay, Target, Until};
+use super::args::{Overlay, Replay, Target, Until};
 use super::failure::Failure;
-use super::{Console, Done, Status, json, place, show};
+use super::{Console, Done, Status, json, pixels, place, show};
 use crate::assets;
+use crate::canvas::Studio;
+use crate::canvas::image::Image;
+use crate::render::overlay::{self, Drawing};
 use crate::replay::{self, Case, Options};
-use crate::report::{RunReport, trace};
+use crate::report::{self, RunReport, trace};
 
 /// A replay, where it ended.
 type Replayed = Box<dyn replay::Replay>;
@@ -13,16 +16,20 @@ type Replayed = Box<dyn replay::Replay>;
 pub(super) fn run(typed: &Replay, console: &mut Console<'_>) -> Done {
     require_possible(typed)?;
     let case = Case::open(&typed.recording)?;
+    let studio = match typed.frame {
+        Some(_) => Some(pixels::studio(typed.pixels.renderer, console)?),
+        None => None,
+    };
     let (mut reports, mut last) = (Vec::new(), None);
     for _ in 0..typed.repeat {
-        let (replayed, report) = once(typed, &case, console)?;
+        let (replayed, report) = once(typed, &case, studio.as_deref(), console)?;
         reports.push(report);
         last = Some(replayed);
     }
-    let Some((report, last)) = RunReport::with_median_times(&reports).zip(last) else {
+    let Some((report, mut last)) = RunReport::with_median_times(&reports).zip(last) else {
         return Ok(Status::Verified);
     };
-    write(typed, &report, last.as_ref(), console)?;
+    write(typed, &report, last.as_mut(), console)?;
     // A NaN is not equal to itself, so a single run is not compared.
     let same =
         reports.len() < 2 || reports.iter().all(|other| other.without_times() == report.without_times());
@@ -38,7 +45,10 @@ fn require_possible(typed: &Replay) -> Result<(), Failure> {
         Target::File(path) => Some(path),
         Target::Stdout => None,
     });
-    files.chain(&typed.export_mesh).try_for_each(|output| place::require_other(&typed.recording, output))?;
+    files
+        .chain(&typed.export_mesh)
+        .chain(&typed.frame)
+        .try_for_each(|output| place::require_other(&typed.recording, output))?;
     let within_event = typed.until.as_ref().is_some_and(|until| until.stage.is_some());
     if within_event && typed.export_mesh.is_some() {
         return Err(Failure::new(
@@ -48,9 +58,15 @@ fn require_possible(typed: &Replay) -> Result<(), Failure> {
     Ok(())
 }
 
-fn once(typed: &Replay, case: &Case, console: &mut Console<'_>) -> Result<(Replayed, RunReport), Failure> {
-    let options = Options { paranoid: typed.paranoid, ..Options::default() };
-    let mut replay = case.replay(&case.recording, options, None)?;
+fn once(
+    typed: &Replay,
+    case: &Case,
+    studio: Option<&dyn Studio>,
+    console: &mut Console<'_>,
+) -> Result<(Replayed, RunReport), Failure> {
+    let (everything, pictures) = (typed.pixels.no_skip, typed.frame.is_some());
+    let options = Options { paranoid: typed.paranoid, everything, pictures, ..Options::default() };
+    let mut replay = case.replay(&case.recording, options, studio)?;
     let name = typed.recording.display().to_string();
     let report = match &typed.until {
         None => to_the_end(replay.as_mut(), &name, console),
@@ -99,9 +115,12 @@ fn step_to(replay: &mut dyn replay::Replay, end: usize, console: &mut Console<'_
 fn write(
     typed: &Replay,
     report: &RunReport,
-    replay: &dyn replay::Replay,
+    replay: &mut dyn replay::Replay,
     console: &mut Console<'_>,
 ) -> Result<(), Failure> {
+    if let Some(path) = &typed.frame {
+        pixels::write(&picture(typed, report, replay)?, path)?;
+    }
     json::write(report, typed.json.as_ref(), console)?;
     if let Some(target) = &typed.trace {
         let mut spans = Vec::new();
@@ -113,4 +132,34 @@ fn write(
         assets::export::save(mesh, path)?;
     }
     Ok(show::run(report, json::text([&typed.json, &typed.trace], console))?)
+}
+
+/// The frame as it is in the end with what is drawn over it, or a map.
+fn picture(typed: &Replay, report: &RunReport, replay: &mut dyn replay::Replay) -> Result<Image, Failure> {
+    if let Some(map) = typed.map {
+        return replay.map(pixels::map_id(map)).ok_or_else(|| pixels::missing(replay));
+    }
+    let (mut frame, view) = replay.frame(None).ok_or_else(|| pixels::missing(replay))?;
+    let last_cut = report.events.iter().rev().find(|event| event.cut);
+    let overlays = last_cut.map_or(&[][..], |event| &event.overlays);
+    let drawings: Vec<Drawing<'_>> =
+        typed.overlay.iter().flat_map(|what| drawings(*what, overlays)).collect();
+    if let Some(mesh) = replay.mesh() {
+        overlay::draw(&mut frame.image, &view, mesh, &drawings);
+    }
+    Ok(frame.image)
+}
+
+/// What a word stands for, of what an event has to show.
+fn drawings(what: Overlay, shown: &[report::Overlay]) -> Vec<Drawing<'_>> {
+    let named = |names: &'static [&str]| {
+        shown.iter().filter(move |o| names.contains(&o.name())).map(Drawing::Shown).collect()
+    };
+    match what {
+        Overlay::Wire => vec![Drawing::Wire],
+        Overlay::Line => named(&["line", "picks"]),
+        Overlay::Configurations => {
+            shown.iter().filter(|o| o.name().starts_with("configuration ")).map(Drawing::Shown).collect()
+        }
+    }
 }

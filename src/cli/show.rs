@@ -6,7 +6,19 @@ use anstyle::{AnsiColor, Style};
 
 use super::console::Channel;
 use super::table::{Cell, TextTable};
-use crate::report::{EventReport, Finding, Outcome, RunReport, StageReport};
+use crate::report::{EventReport, Finding, Outcome, Pass, RunReport, StageReport};
+
+/// What was done for a frame, pass by pass.
+pub(super) fn passes(passes: &[Pass], to: &mut Channel<'_>) -> io::Result<()> {
+    let mut table = TextTable::new(&["pass", ">us", ">tiles", ">of", ""]);
+    for pass in passes {
+        let number = |n: u32| if pass.of == 0 { String::new() } else { n.to_string() };
+        let skipped = pass.skipped.iter().map(|reason| format!("skipped: {reason}"));
+        let cells = [pass.id.clone(), format!("{:.0}", pass.us), number(pass.tiles), number(pass.of)];
+        table.row(cells.into_iter().chain([skipped.collect::<String>()]).map(Cell::from));
+    }
+    table.write(to)
+}
 
 /// As much of a digest as tells two apart.
 const SHORT: usize = 12;

@@ -3,9 +3,8 @@
 
 use std::time::Instant;
 
-use crate::engine::wound::{State, Work, Wound, WoundEvent};
+use crate::engine::wound::{Edit, State, Work, Wound, WoundEvent};
 use crate::engine::{Engine, Part, Start};
-use crate::mesh::Patch;
 use crate::report::{Check, Outcome, Rejection};
 
 /// What came of an event.
@@ -20,7 +19,7 @@ pub(super) struct Ran {
     /// The work, as the stages left it.
     pub(super) work: Option<Work>,
     /// What was committed.
-    pub(super) patch: Option<Patch>,
+    pub(super) patch: Option<Edit>,
 }
 
 impl Ran {

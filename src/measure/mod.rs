@@ -2,7 +2,7 @@
 //!
 //! | command | what it measures |
 //! | --- | --- |
-//! | [`thesis`] | the thesis's eighteen cuts (Lam 2016, Table 6.2), beside its figures |
+//! | [`thesis`] | the thesis's performance tests (Lam 2016, §6.5), beside its figures |
 //! | [`scaling`] | the same cut and pick on meshes from 8 thousand to 4 million faces |
 //! | [`stability`] | random and adversarial cuts: outcomes, and every broken invariant |
 //!
@@ -22,6 +22,7 @@ pub use figure::Figure;
 pub use random::Random;
 
 use crate::assets::builtin::BuiltinError;
+use crate::canvas::RenderError;
 use crate::mesh::BuildError;
 use crate::replay::OpenError;
 
@@ -37,6 +38,8 @@ pub enum MeasureError {
     NoCut(String),
     /// A cut that is to be measured is rejected.
     Rejected(String),
+    /// The renderer failed.
+    Render(RenderError),
     /// There is no such built-in scene.
     Builtin(BuiltinError),
     /// A scene is no mesh.
@@ -51,6 +54,7 @@ impl fmt::Display for MeasureError {
                 write!(f, "{recording}: no cut in it is applied, so there is nothing to measure")
             }
             Self::Rejected(what) => write!(f, "{what}"),
+            Self::Render(error) => error.fmt(f),
             Self::Builtin(error) => error.fmt(f),
             Self::Build(error) => error.fmt(f),
         }

@@ -18,6 +18,7 @@ use super::figure::table;
 use super::{Figure, MeasureError, Progress, Random};
 use crate::assets::SceneSettings;
 use crate::assets::builtin::builtin;
+use crate::canvas::look::Look;
 use crate::engine::Engine;
 use crate::engine::wound::{Mode, Pick, Scene, State, Work, Wound, WoundEvent, pick};
 use crate::mesh::Mesh;
@@ -206,7 +207,8 @@ impl Runner {
 pub(super) fn default_scene() -> Scene {
     let SceneSettings { unit_cm, snap_px, fov_y, target, azimuth, zenith, distance, .. } =
         SceneSettings::default();
-    Scene { viewport: VIEWPORT, unit_cm, snap_px, fov_y, target, azimuth, zenith, distance }
+    let (look, map_size) = (Look::default(), [1024; 2]);
+    Scene { viewport: VIEWPORT, unit_cm, snap_px, fov_y, target, azimuth, zenith, distance, look, map_size }
 }
 
 fn rejected(state: &State, ran: &Ran) -> MeasureError {

@@ -76,14 +76,17 @@ pub struct Case {
 impl Case {
     /// Reads a recording, or a script, and opens the scene that it names. A script gets the hashes that the scene has.
     pub fn open(path: &Path) -> Result<Self, OpenError> {
-        let mut recording = read(path)?;
-        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-        let scene = assets::open(recording.scene(), &folder, &CacheOptions::from_environment());
+        Self::new(read(path)?, path.parent().unwrap_or(Path::new("")))
+    }
+
+    /// Opens the scene that a recording names; its paths are relative to a folder.
+    pub fn new(mut recording: AnyRecording, folder: &Path) -> Result<Self, OpenError> {
+        let scene = assets::open(recording.scene(), folder, &CacheOptions::from_environment());
         let scene = scene.map_err(OpenError::Asset)?;
         if !recording.is_hashed() {
             recording.set_hashes([scene.scene_hash, scene.mesh_hash]);
         }
-        Ok(Self { recording, folder, scene })
+        Ok(Self { recording, folder: folder.to_owned(), scene })
     }
 
     /// A replay of its recording, or of another on the same scene.
@@ -156,7 +159,8 @@ fn renderer(scene: &Loaded, studio: &dyn Studio) -> Result<Box<dyn Renderer>, Op
 
 fn wound_scene(settings: &SceneSettings, viewport: [u32; 2]) -> wound::Scene {
     let SceneSettings { unit_cm, snap_px, fov_y, target, azimuth, zenith, distance, .. } = *settings;
-    wound::Scene { viewport, unit_cm, snap_px, fov_y, target, azimuth, zenith, distance }
+    let (look, map_size) = (Look::default(), [1024; 2]);
+    wound::Scene { viewport, unit_cm, snap_px, fov_y, target, azimuth, zenith, distance, look, map_size }
 }
 
 fn require_same(recording: &AnyRecording, scene: &Loaded) -> Result<(), OpenError> {

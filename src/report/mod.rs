@@ -169,6 +169,15 @@ pub struct Pass {
     pub of: u32,
 }
 
+impl Overlay {
+    /// Its name.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Points { name, .. } | Self::Line { name, .. } | Self::Faces { name, .. } => name,
+        }
+    }
+}
+
 /// What a stage did at one event.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StageReport {

@@ -1,13 +1,18 @@
 //! The wound engine as the session sees it.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
-use super::event::{Mode, Pick, SETTINGS, Value, WoundEvent};
-use super::state::{Before, Control, Cut, State, Work};
-use super::{checks, pick, show, stages, subdivide};
+use super::event::{Mode, Pick, Value, WoundEvent};
+use super::settings::{FIRST, SETTINGS, Setting};
+use super::state::{Before, Control, Cut, Edit, State, Work};
+use super::{checks, pick, show, stages, subdivide, view};
+use crate::canvas::frame::FrameJob;
+use crate::canvas::job::Painting;
 use crate::engine::{Control as EventControl, Engine, Event, Shown, Stage, Start};
 use crate::mesh::refine::Refined;
-use crate::mesh::{FaceId, Mark, Mesh, NodeId, Patch, VertexId, check};
+use crate::mesh::{FaceId, Mark, Mesh, NodeId, VertexId, check};
 use crate::report::{Buffer, Check, Outcome, Rejection, Scalar};
 
 /// Cutting wounds on a skin surface.
@@ -20,9 +25,9 @@ impl Engine for Wound {
     type State = State;
     type Control = Control;
     type Work = Work;
-    type Patch = Patch;
+    type Patch = Edit;
 
-    fn start(state: &mut State, event: &WoundEvent, _seed: u64) -> Start<Work> {
+    fn start(state: &mut State, event: &WoundEvent, seed: u64) -> Start<Work> {
         let pending = match event {
             WoundEvent::Click(_) => None,
             _ => state.control.pending.take(),
@@ -31,11 +36,9 @@ impl Engine for Wound {
         match event {
             WoundEvent::Camera(change) => state.control.camera.change(change),
             WoundEvent::Mode(mode) => state.control.mode = *mode,
-            WoundEvent::Set(values) => {
-                state.control.settings.extend(values.iter().map(|(k, v)| (k.clone(), *v)))
-            }
-            WoundEvent::Click(at) => return click(state, *at),
-            WoundEvent::Cut { from, to } => return begin_cut(state, [*from, *to]),
+            WoundEvent::Set(values) => state.set(values),
+            WoundEvent::Click(at) => return click(state, *at, seed),
+            WoundEvent::Cut { from, to } => return begin_cut(state, [*from, *to], seed),
             WoundEvent::Subdivide { at, into } => return begin_subdivision(state, *at, *into),
             WoundEvent::Undo {} | WoundEvent::Redo {} | WoundEvent::Checkpoint(_) => {}
         }
@@ -46,24 +49,27 @@ impl Engine for Wound {
         !matches!(event.control(), EventControl::Checkpoint(_)) && state.control.pending.take().is_some()
     }
 
-    fn commit(state: &mut State, _work: &mut Work) -> Patch {
-        state.mesh.commit()
+    fn commit(state: &mut State, work: &mut Work) -> Edit {
+        Edit { mesh: state.mesh.commit(), painting: work.painting().cloned() }
     }
 
-    fn rollback(state: &mut State, _work: &mut Work) {
+    fn rollback(state: &mut State, work: &mut Work) {
         let touched = state.mesh.touched_since(state.mesh.beginning());
         state.mesh.rollback();
         follow(state, touched.nodes.into_iter(), touched.faces);
+        unpaint(state, work.painting());
     }
 
-    fn revert(state: &mut State, patch: &Patch) {
-        state.mesh.revert(patch);
-        follow(state, patch.nodes(), patch.faces().collect());
+    fn revert(state: &mut State, edit: &Edit) {
+        state.mesh.revert(&edit.mesh);
+        follow(state, edit.mesh.nodes(), edit.mesh.faces().collect());
+        unpaint(state, edit.painting.as_ref());
     }
 
-    fn apply(state: &mut State, patch: &Patch) {
-        state.mesh.apply(patch);
-        follow(state, patch.nodes(), patch.faces().collect());
+    fn apply(state: &mut State, edit: &Edit) {
+        state.mesh.apply(&edit.mesh);
+        follow(state, edit.mesh.nodes(), edit.mesh.faces().collect());
+        state.paintings.extend(edit.painting.clone());
     }
 
     fn show(state: &State, work: &Work) -> Shown {
@@ -96,6 +102,7 @@ impl Engine for Wound {
         camera.push_f64(0, &[c.target.x, c.target.y, c.target.z, c.azimuth, c.zenith, c.distance, c.fov_y]);
         buffers.extend([anchors, camera]);
         buffers.extend(control_buffers(&state.control));
+        buffers.push(paintings_buffer(&state.paintings));
         buffers
     }
 
@@ -105,6 +112,14 @@ impl Engine for Wound {
 
     fn mesh(state: &State) -> Option<&Mesh> {
         Some(&state.mesh)
+    }
+
+    fn paintings(state: &State) -> &[Arc<Painting>] {
+        &state.paintings
+    }
+
+    fn frame(state: &State, version: u64, everything: bool) -> Option<FrameJob<'_>> {
+        Some(view::frame(state, version, everything))
     }
 
     fn counts(state: &State) -> Vec<(&'static str, i64)> {
@@ -120,11 +135,13 @@ impl Engine for Wound {
     }
 
     fn state_bytes(state: &State) -> usize {
-        state.mesh.bytes() + state.bvh.as_ref().map_or(0, |b| b.bytes())
+        // The paintings themselves are shared with the edits that made them, and counted there.
+        let list = state.paintings.capacity() * size_of::<Arc<Painting>>();
+        state.mesh.bytes() + state.bvh.as_ref().map_or(0, |b| b.bytes()) + list
     }
 
-    fn patch_bytes(patch: &Patch) -> usize {
-        patch.bytes()
+    fn patch_bytes(edit: &Edit) -> usize {
+        edit.mesh.bytes() + edit.painting.as_ref().map_or(0, |painting| painting.bytes())
     }
 
     fn plant(state: &mut State, buffer: &str, element: u32, ulps: i64) -> Result<(), String> {
@@ -147,25 +164,39 @@ impl Engine for Wound {
     }
 }
 
-/// Mode, pending click and settings; names of settings are in the order of [`SETTINGS`].
-fn control_buffers(control: &Control) -> [Buffer; 2] {
+/// Mode, pending click and settings, which are in the order of [`SETTINGS`].
+fn control_buffers(control: &Control) -> [Buffer; 3] {
     let mut mode = Buffer::new("mode", "m", Scalar::U32, 2);
     mode.push_u32(0, &[control.mode as u32, u32::from(control.pending.is_some())]);
-    let mut settings = Buffer::new("settings", "s", Scalar::F64, 1);
-    for (i, value) in (0u32..).zip(SETTINGS.iter().map(|(name, _)| control.settings.get(*name))) {
-        settings.push_f64(
-            i,
-            &[match value {
-                Some(Value::Number(v)) => *v,
-                Some(Value::Switch(on)) => f64::from(u8::from(*on)),
-                None => f64::NAN,
-            }],
-        );
+    let mut settings = settings_buffer("settings", control, &SETTINGS[..FIRST]);
+    for (i, value) in (FIRST as u32..).zip(control.pending.unwrap_or([f64::NAN; 2])) {
+        settings.push_f64(i, &[value]);
     }
-    let [x, y] = control.pending.unwrap_or([f64::NAN; 2]);
-    settings.push_f64(SETTINGS.len() as u32, &[x]);
-    settings.push_f64(SETTINGS.len() as u32 + 1, &[y]);
-    [mode, settings]
+    [mode, settings, settings_buffer("look", control, &SETTINGS[FIRST..])]
+}
+
+fn settings_buffer(name: &str, control: &Control, settings: &[Setting]) -> Buffer {
+    let mut buffer = Buffer::new(name, "s", Scalar::F64, 1);
+    for (i, setting) in (0u32..).zip(settings) {
+        let value = match control.settings.get(setting.name) {
+            Some(Value::Number(v)) => *v,
+            Some(Value::Switch(on)) => f64::from(u8::from(*on)),
+            None => f64::NAN,
+        };
+        buffer.push_f64(i, &[value]);
+    }
+    buffer
+}
+
+/// A row for each painting: its digest.
+fn paintings_buffer(paintings: &[Arc<Painting>]) -> Buffer {
+    let mut buffer = Buffer::new("paintings", "p", Scalar::U32, 8);
+    for (i, painting) in (0u32..).zip(paintings) {
+        let digest = painting.digest();
+        let words = digest.as_chunks::<4>().0.iter().map(|word| u32::from_le_bytes(*word));
+        buffer.push_u32(i, &words.collect::<Vec<u32>>());
+    }
+    buffer
 }
 
 fn off_by(value: f64, ulps: i64) -> f64 {
@@ -188,10 +219,15 @@ fn follow(state: &mut State, nodes: impl Iterator<Item = NodeId>, mut faces: Vec
     state.follow(&faces);
 }
 
+/// Takes the newest painting off the list, if there was one.
+fn unpaint(state: &mut State, painting: Option<&Arc<Painting>>) {
+    state.paintings.truncate(state.paintings.len() - usize::from(painting.is_some()));
+}
+
 /// The first click waits, if it meets the surface; the second makes the cut.
-fn click(state: &mut State, at: [f64; 2]) -> Start<Work> {
+fn click(state: &mut State, at: [f64; 2], seed: u64) -> Start<Work> {
     match state.control.pending.take() {
-        Some(first) => begin_cut(state, [Pick::Pixel(first), Pick::Pixel(at)]),
+        Some(first) => begin_cut(state, [Pick::Pixel(first), Pick::Pixel(at)], seed),
         None => match pick::resolve(state, Pick::Pixel(at)) {
             Ok(_) => {
                 state.control.pending = Some(at);
@@ -202,15 +238,21 @@ fn click(state: &mut State, at: [f64; 2]) -> Start<Work> {
     }
 }
 
-fn begin_cut(state: &mut State, picks: [Pick; 2]) -> Start<Work> {
+fn begin_cut(state: &mut State, picks: [Pick; 2], seed: u64) -> Start<Work> {
     state.mesh.begin();
     Start::Run(Work::Cut(Box::new(Cut {
         mode: state.control.mode,
+        seed,
+        unpainted: (!state.mesh.is_textured()).then_some("no texture coordinates"),
         eye: state.control.camera.eye(),
         picks,
         picked: None,
         plane: None,
         formed: Default::default(),
+        arc: Vec::new(),
+        links: Vec::new(),
+        patch: None,
+        painted: None,
         line: Default::default(),
         refined: Default::default(),
         before_merge: Before::default(),

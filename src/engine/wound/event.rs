@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::settings;
 use crate::engine::{Control, Event};
 use crate::mesh::{EdgeId, FaceId, NodeId};
 
@@ -134,20 +135,6 @@ pub enum WoundEvent {
     Checkpoint(String),
 }
 
-/// The settings that a `set` event may name, with what they take.
-pub const SETTINGS: &[(&str, Value)] = &[
-    ("snap_px", Value::Number(0.0)),
-    ("shadows", Value::Switch(true)),
-    ("transmittance", Value::Switch(true)),
-    ("specular", Value::Switch(true)),
-    ("scattering", Value::Switch(true)),
-    ("discoloration", Value::Switch(true)),
-    ("color-map", Value::Switch(true)),
-    ("normal-map", Value::Switch(true)),
-    ("occlusion-map", Value::Switch(true)),
-    ("specular-map", Value::Switch(true)),
-];
-
 impl Event for WoundEvent {
     fn kind(&self) -> &'static str {
         match self {
@@ -179,7 +166,7 @@ impl Event for WoundEvent {
             Self::Cut { from, to } => validate_pick("from", from).and_then(|()| validate_pick("to", to)),
             Self::Subdivide { at, into: 3 | 4 | 6 } => finite("at", at),
             Self::Subdivide { into, .. } => Err(format!("into: {into} is not 3, 4 or 6")),
-            Self::Set(values) => values.iter().try_for_each(|(name, value)| validate_setting(name, value)),
+            Self::Set(values) => values.iter().try_for_each(|(name, value)| settings::validate(name, value)),
             Self::Mode(_) | Self::Undo {} | Self::Redo {} | Self::Checkpoint(_) => Ok(()),
         }
     }
@@ -219,18 +206,5 @@ fn validate_pick(what: &str, pick: &Pick) -> Result<(), String> {
             within(what, v, 0.0, 1.0)?;
             within(&format!("{what}: the sum of the weights"), u + v, 0.0, 1.0)
         }
-    }
-}
-
-fn validate_setting(name: &str, value: &Value) -> Result<(), String> {
-    let Some((_, kind)) = SETTINGS.iter().find(|(known, _)| *known == name) else {
-        let known: Vec<&str> = SETTINGS.iter().map(|(known, _)| *known).collect();
-        return Err(format!("set: there is no setting `{name}`; there are {}", known.join(", ")));
-    };
-    match (kind, value) {
-        (Value::Switch(_), Value::Switch(_)) => Ok(()),
-        (Value::Number(_), Value::Number(v)) if v.is_finite() && *v >= 0.0 => Ok(()),
-        (Value::Switch(_), _) => Err(format!("set: `{name}` is true or false")),
-        (Value::Number(_), _) => Err(format!("set: `{name}` is a number of at least 0")),
     }
 }

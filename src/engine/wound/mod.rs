@@ -3,6 +3,8 @@
 //! | stage | module | what it does |
 //! | --- | --- | --- |
 //! | FC | [`form`], [`settle`] | forms the cutting line on the surface |
+//! | GP | [`patch`] | says how large its wound patch is, and what is drawn on it |
+//! | PP | [`paint`], [`surface`] | lays it on the skin around the line |
 //! | MC | [`merge`] | merges it into the mesh |
 //! | CI | [`carve`] | opens it, and makes the gutter |
 //! | SD | [`subdivide`] | divides the face under a pixel |
@@ -16,19 +18,27 @@ pub mod chain;
 mod checks;
 mod engine;
 mod event;
+pub mod flat;
 pub mod form;
 pub mod merge;
+pub mod paint;
+pub mod patch;
 pub mod pattern;
 pub mod pick;
 pub mod plane;
+mod settings;
 pub mod settle;
 mod show;
 mod stages;
 mod state;
 pub mod subdivide;
+pub mod surface;
 #[cfg(test)]
 mod tests;
+mod view;
 
 pub use engine::Wound;
-pub use event::{CameraChange, Mode, Pick, SETTINGS, Value, WoundEvent};
-pub use state::{Control, Cut, Scene, State, Work};
+pub use event::{CameraChange, Mode, Pick, Value, WoundEvent};
+pub use settings::{SETTINGS, Setting, Takes};
+pub use state::{Control, Cut, Edit, Scene, State, Work};
+pub use view::{Bounds, Seen};

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::state::{Cut, State, Work};
+use crate::canvas::job::PaintFace;
 use crate::engine::Shown;
 use crate::report::{Counter, Counters, Overlay, Row, Table};
 
@@ -34,6 +35,14 @@ fn counters(state: &State, cut: &Cut) -> Counters {
     count("links", chain.links.len());
     count("faces", faces.len());
     count("snapped", cut.plane.as_ref().map_or(0, |p| p.snapped()));
+    if let Some(patch) = &cut.patch {
+        count("patch_width", patch.job.size[0] as usize);
+        count("patch_height", patch.job.size[1] as usize);
+    }
+    if let Some(painted) = &cut.painted {
+        count("patch_faces", distinct(&painted.painting.paint.faces[..painted.painting.paint.inner]).len());
+        count("painted_faces", distinct(&painted.painting.paint.faces).len());
+    }
     if !cut.carved.gutter.is_empty() {
         count("gutter_faces", cut.carved.gutter.len());
         let moved = cut.carved.moved.iter().filter(|(n, from)| state.mesh.position(*n) != *from).count();
@@ -43,6 +52,14 @@ fn counters(state: &State, cut: &Cut) -> Counters {
         count("shallowed", cut.carved.shallowed);
     }
     counters
+}
+
+/// The faces of which some parts are painted, ascending.
+fn distinct(parts: &[PaintFace]) -> Vec<u32> {
+    let mut faces: Vec<u32> = parts.iter().map(|part| part.face).collect();
+    faces.sort_unstable();
+    faces.dedup();
+    faces
 }
 
 fn links(cut: &Cut) -> Table {
@@ -72,9 +89,11 @@ fn overlays(cut: &Cut) -> Vec<Overlay> {
     let line = chain.points.iter().map(|p| p.position.to_array()).collect();
     let picks = cut.picked.iter().flatten().map(|p| p.point.position.to_array()).collect();
     let gutter = cut.carved.gutter.iter().map(|f| f.0).collect();
+    let painted = cut.painted.as_ref().map_or_else(Vec::new, |p| distinct(&p.painting.paint.faces));
     vec![
         Overlay::Line { name: "line".into(), points: line },
         Overlay::Points { name: "picks".into(), points: picks },
         Overlay::Faces { name: "gutter".into(), faces: gutter },
+        Overlay::Faces { name: "painted".into(), faces: painted },
     ]
 }

@@ -1,20 +1,20 @@
 //! The table of stages.
 
 use super::carve::{Place, carve};
-use super::checks;
 use super::event::Mode;
 use super::merge::{follow_refinement, merge};
-use super::pick;
+use super::paint::{Place as PaintPlace, paint};
 use super::plane::CutPlane;
-use super::settle;
 use super::state::{Before, Cut, State, Work};
+use super::surface::{arc_lengths, skin_links};
 use super::{Wound, chain::At};
-use crate::engine::{Part, Stage};
+use super::{checks, patch, pick, settle};
+use crate::engine::{Job, Part, Stage};
 use crate::mesh::refine::Refinement;
 use crate::mesh::{Mesh, Touched};
 use crate::report::{Buffer, Rejection, Scalar};
 
-/// FC, MC and CI for a cut, SD for a subdivision.
+/// FC, GP, PP, MC and CI for a cut, SD for a subdivision.
 pub(super) const STAGES: &[Stage<Wound>] = &[
     Stage {
         id: "FC",
@@ -24,6 +24,26 @@ pub(super) const STAGES: &[Stage<Wound>] = &[
         job: |_| None,
         buffers: |state, work| cut_of(work).map_or_else(Vec::new, |cut| line_buffers(state, cut)),
         check: |state, work| cut_of(work).map_or_else(Vec::new, |cut| checks::form(state, cut)),
+    },
+    Stage {
+        id: "GP",
+        title: "generate wound patch",
+        part: painting_part,
+        run: |state, work| on_cut(work, |cut| run_patch(state, cut)),
+        job: |work| cut_of(work)?.patch.as_ref().map(|patch| Job::Patch(&patch.job)),
+        buffers: |_, work| {
+            cut_of(work).and_then(|cut| cut.patch.as_ref()).map_or_else(Vec::new, |p| vec![p.job.buffer()])
+        },
+        check: |state, work| cut_of(work).map_or_else(Vec::new, |cut| checks::patch(state, cut)),
+    },
+    Stage {
+        id: "PP",
+        title: "paint wound patch",
+        part: painting_part,
+        run: |state, work| on_cut(work, |cut| run_paint(state, cut)),
+        job: |work| work.painting().map(Job::Paint),
+        buffers: |_, work| work.painting().map_or_else(Vec::new, |painting| painting.paint.buffers().into()),
+        check: |state, work| cut_of(work).map_or_else(Vec::new, |cut| checks::paint(state, cut)),
     },
     Stage {
         id: "MC",
@@ -68,6 +88,14 @@ fn part(work: &Work, least: Mode) -> Part {
     }
 }
 
+/// GP and PP take part in every cut, unless there is nothing to paint on.
+fn painting_part(work: &Work) -> Part {
+    match (part(work, Mode::Patch), cut_of(work).and_then(|cut| cut.unpainted)) {
+        (Part::Run, Some(reason)) => Part::Skip(reason),
+        (part, _) => part,
+    }
+}
+
 fn cut_of(work: &Work) -> Option<&Cut> {
     match work {
         Work::Cut(cut) => Some(cut),
@@ -94,6 +122,36 @@ fn form(state: &mut State, cut: &mut Cut) -> Result<(), Rejection> {
     })?;
     cut.formed = settle::form(&state.mesh, &mut plane, picked, state.largest)?;
     cut.plane = Some(plane);
+    cut.arc = arc_lengths(&cut.formed.chain);
+    cut.links = skin_links(&state.mesh, &cut.formed.chain, &cut.arc);
+    cut.unpainted = cut.unpainted.or_else(|| unpaintable(cut));
+    Ok(())
+}
+
+/// Why a line cannot be painted along.
+fn unpaintable(cut: &Cut) -> Option<&'static str> {
+    // Jobs are in f32; beyond this a length, or the square of one, would be none.
+    let length = cut.arc.last().copied().unwrap_or(0.0);
+    match (cut.links.is_empty(), (1e-15..1e15).contains(&length)) {
+        (true, _) => Some("no skin along the line"),
+        (_, false) => Some("no length that a job can hold"),
+        _ => None,
+    }
+}
+
+fn run_patch(state: &State, cut: &mut Cut) -> Result<(), Rejection> {
+    let look = &state.look.wound;
+    cut.patch = Some(patch::plan(&state.mesh, &cut.formed.chain, &cut.links, state.map_size, look, cut.seed));
+    Ok(())
+}
+
+fn run_paint(state: &mut State, cut: &mut Cut) -> Result<(), Rejection> {
+    let Some(patch) = &cut.patch else { return Ok(()) };
+    let (mesh, formed, arc, links, map) =
+        (&state.mesh, &cut.formed, &cut.arc[..], &cut.links[..], state.map_size);
+    let painted = paint(&PaintPlace { mesh, formed, arc, links, patch, map }, &state.look.wound, cut.seed);
+    state.paintings.push(painted.painting.clone());
+    cut.painted = Some(painted);
     Ok(())
 }
 

@@ -1,22 +1,30 @@
 //! What a run of the wound engine changes, and a cut on its way through the stages.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use glam::DVec3;
 
 use super::camera::Camera;
 use super::carve::Carved;
-use super::event::{Mode, Pick, SETTINGS, Value};
+use super::event::{Mode, Pick, Value};
 use super::merge::{Line, face_box};
+use super::paint::Painted;
+use super::patch::Patch;
 use super::pick::Picked;
 use super::plane::CutPlane;
+use super::settings;
 use super::settle::Formed;
+use super::surface::SkinLink;
+use super::view::{Bounds, Seen};
+use crate::canvas::job::Painting;
+use crate::canvas::look::Look;
 use crate::geometry::bvh::Bvh;
 use crate::mesh::refine::{Refined, Refinement};
-use crate::mesh::{Face, FaceId, Mark, Mesh};
+use crate::mesh::{self, Face, FaceId, Mark, Mesh};
 
 /// What a scene says to the engine, apart from the mesh.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
     /// Width and height of the view in pixels.
     pub viewport: [u32; 2],
@@ -34,6 +42,10 @@ pub struct Scene {
     pub zenith: f64,
     /// Eye to target, model units; far enough to see everything by default.
     pub distance: Option<f64>,
+    /// Light, skin and wounds.
+    pub look: Look,
+    /// Width and height of the colour map: what a wound patch's size is counted in.
+    pub map_size: [u32; 2],
 }
 
 /// The small part of the state.
@@ -47,6 +59,8 @@ pub struct Control {
     pub pending: Option<[f64; 2]>,
     /// Settings that `set` events changed.
     pub settings: BTreeMap<String, Value>,
+    /// What follows from the settings, shared until one changes.
+    pub seen: Arc<Seen>,
 }
 
 /// Everything that a run changes.
@@ -54,6 +68,8 @@ pub struct Control {
 pub struct State {
     /// The mesh.
     pub mesh: Mesh,
+    /// What the cuts painted on the maps, in order.
+    pub paintings: Vec<Arc<Painting>>,
     /// The small part.
     pub control: Control,
     /// Made when the first pick or incision asks for it; follows every edit from then on.
@@ -61,36 +77,62 @@ pub struct State {
     /// The largest coordinate of the mesh as it was loaded: what ulps are counted by.
     pub(super) largest: f64,
     pub(super) unit_cm: f64,
+    /// Around the mesh as it was loaded: lights, depths and the point that positions are relative to never move.
+    pub(super) bounds: Bounds,
+    /// The scene's own look, shared by all states of a run.
+    pub(super) look: Arc<Look>,
+    pub(super) map_size: [u32; 2],
+}
+
+/// What a committed piece of work changed in the body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Edit {
+    /// The mesh's part.
+    pub mesh: mesh::Patch,
+    /// What was painted.
+    pub painting: Option<Arc<Painting>>,
 }
 
 impl State {
     /// A mesh in a scene, before anything happened to it.
     pub fn new(mesh: Mesh, scene: Scene) -> Self {
-        let [lo, hi] = mesh.bounds();
-        let radius = (hi - lo).length() * 0.5;
-        let distance =
-            scene.distance.unwrap_or_else(|| Camera::fitting_distance(radius, scene.fov_y, scene.viewport));
+        let bounds = Bounds::of(&mesh);
+        let distance = scene
+            .distance
+            .unwrap_or_else(|| Camera::fitting_distance(bounds.radius, scene.fov_y, scene.viewport));
         let camera = Camera {
-            target: scene.target.map_or((lo + hi) * 0.5, DVec3::from),
+            target: scene.target.map_or(bounds.centre, DVec3::from),
             azimuth: scene.azimuth,
             zenith: scene.zenith,
             distance,
             fov_y: scene.fov_y,
             viewport: scene.viewport,
         };
-        let defaults = SETTINGS.iter().map(|(name, value)| (name.to_string(), *value));
-        let mut settings: BTreeMap<String, Value> = defaults.collect();
-        settings.insert("snap_px".into(), Value::Number(scene.snap_px));
-        let largest = mesh.largest_coordinate();
-        let control = Control { camera, mode: Mode::default(), pending: None, settings };
-        Self { mesh, control, bvh: None, largest, unit_cm: scene.unit_cm }
+        let settings = settings::of_scene(&scene.look, scene.snap_px);
+        let seen = Arc::new(Seen::new(&scene.look, bounds, &settings));
+        let control = Control { camera, mode: Mode::default(), pending: None, settings, seen };
+        Self {
+            largest: mesh.largest_coordinate(),
+            mesh,
+            paintings: Vec::new(),
+            control,
+            bvh: None,
+            unit_cm: scene.unit_cm,
+            bounds,
+            look: Arc::new(scene.look),
+            map_size: scene.map_size,
+        }
+    }
+
+    /// Changes settings, which have been validated.
+    pub(super) fn set(&mut self, values: &BTreeMap<String, Value>) {
+        let control = &mut self.control;
+        control.settings.extend(values.iter().map(|(name, value)| (name.clone(), *value)));
+        control.seen = Arc::new(Seen::new(&self.look, self.bounds, &control.settings));
     }
 
     pub(super) fn snap_px(&self) -> f64 {
-        match self.control.settings.get("snap_px") {
-            Some(Value::Number(px)) => *px,
-            _ => 0.0,
-        }
+        settings::number(&self.control.settings, "snap_px").unwrap_or(0.0)
     }
 
     /// The mesh and the hierarchy over its faces, which is made where it is missing.
@@ -145,6 +187,16 @@ pub enum Work {
     },
 }
 
+impl Work {
+    /// What was painted.
+    pub fn painting(&self) -> Option<&Arc<Painting>> {
+        match self {
+            Self::Cut(cut) => cut.painted.as_ref().map(|painted| &painted.painting),
+            Self::Subdivide { .. } => None,
+        }
+    }
+}
+
 /// What checks need to know of the mesh before a stage.
 #[derive(Clone, Debug, Default)]
 pub struct Before {
@@ -168,6 +220,10 @@ impl Before {
 pub struct Cut {
     /// How far it goes.
     pub mode: Mode,
+    /// What chance is drawn by.
+    pub seed: u64,
+    /// Why nothing is painted.
+    pub unpainted: Option<&'static str>,
     /// The eye.
     pub eye: DVec3,
     /// What was asked for.
@@ -178,6 +234,14 @@ pub struct Cut {
     pub plane: Option<CutPlane>,
     /// FC's line.
     pub formed: Formed,
+    /// Arc length at the points of FC's line.
+    pub arc: Vec<f64>,
+    /// The parts of FC's line that lie in skin.
+    pub links: Vec<SkinLink>,
+    /// GP's patch.
+    pub patch: Option<Patch>,
+    /// What PP painted.
+    pub painted: Option<Painted>,
     /// MC's line.
     pub line: Line,
     /// MC's children.

@@ -53,7 +53,7 @@ fn make(&(name, scale, unit_cm): &Row) -> Result<Prepared, MeasureError> {
     let mut indexed = builtin(name)?.mesh;
     indexed.positions.iter_mut().for_each(|p| *p *= scale);
     let scene = Scene { unit_cm, ..default_scene() };
-    let mut state = State::new(Mesh::build(&indexed)?, scene);
+    let mut state = State::new(Mesh::build(&indexed)?, scene.clone());
     state.mesh_and_bvh();
     let (title, builtin) = match scale == 1.0 {
         true => (name.to_owned(), Some(name)),

@@ -6,10 +6,14 @@
 mod carve;
 mod form;
 mod merge;
+mod paint;
+mod patch;
 
 pub(super) use carve::carve;
 pub(super) use form::form;
 pub(super) use merge::{merge, subdivision};
+pub(super) use paint::paint;
+pub(super) use patch::patch;
 
 use super::state::{Before, State};
 use crate::geometry::ulp;

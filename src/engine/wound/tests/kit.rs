@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::{DVec3, Vec2};
 
+use crate::canvas::look::Look;
 use crate::engine::wound::carve::Carved;
 use crate::engine::wound::chain::Chain;
 use crate::engine::wound::{Cut, Mode, Pick, Scene, State, Work, Wound, WoundEvent};
@@ -119,6 +120,8 @@ pub(super) fn state(mesh: &IndexedMesh) -> State {
         azimuth: 0.0,
         zenith: std::f64::consts::FRAC_PI_2,
         distance: None,
+        look: Look::default(),
+        map_size: [1024; 2],
     };
     State::new(Mesh::build(mesh).unwrap(), scene)
 }
@@ -143,7 +146,10 @@ pub(super) fn run(state: &mut State, event: &WoundEvent) -> (Outcome, String) {
 }
 
 fn through_stages(state: &mut State, work: &mut Work, event: &WoundEvent) -> Result<(), Rejection> {
-    for stage in Wound::STAGES.iter().filter(|s| (s.part)(work) == Part::Run).collect::<Vec<_>>() {
+    for stage in Wound::STAGES {
+        if (stage.part)(work) != Part::Run {
+            continue;
+        }
         (stage.run)(state, work)?;
         let broken: Vec<_> = (stage.check)(state, work).into_iter().filter(|c| !c.ok).collect();
         assert!(broken.is_empty(), "{} of {event:?}: {broken:#?}", stage.id);
