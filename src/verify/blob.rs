@@ -25,6 +25,11 @@ impl Blob {
         Self { lancet_blob: VERSION, report, details }
     }
 
+    /// Its file.
+    pub fn text(&self) -> Vec<u8> {
+        serde_json::to_vec(self).expect("names, numbers and texts always have a form")
+    }
+
     /// Reads a file. An error says what is wrong with it, and where.
     pub fn parse(text: &[u8]) -> Result<Self, String> {
         let blob: Self = serde_json::from_slice(text).map_err(|e| format!("no blob of verify: {e}"))?;

@@ -9,7 +9,7 @@ use super::report::{RecordingReport, Verdict, VerifyReport};
 
 /// The report as XML.
 pub fn junit(report: &VerifyReport) -> String {
-    let mut cases: Vec<Case> = report.recordings.iter().map(Case::of).collect();
+    let mut cases: Vec<Case<'_>> = report.recordings.iter().map(Case::of).collect();
     cases.extend(Case::loose("orphaned goldens", "failure", &report.orphans));
     cases.extend(Case::loose("what was asked for", "error", &report.errors));
     let count = |kind: &str| cases.iter().filter(|c| c.fault == Some(kind)).count();

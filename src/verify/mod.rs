@@ -54,4 +54,4 @@ pub use one::failure;
 pub use report::{RecordingReport, Verdict, VerifyReport};
 pub use shard::{Shard, ShardReport};
 pub use skips::Skips;
-pub use suite::{Progress, VerifyOptions, verify, verify_in_detail};
+pub use suite::{Progress, VerifyOptions, verify, verify_to_blob};

@@ -155,11 +155,6 @@ impl VerifyReport {
         report
     }
 
-    /// Whether anything is wrong that is no recording's: its goldens, or what was asked for.
-    pub(super) fn has_loose_ends(&self) -> bool {
-        !self.orphans.is_empty() || !self.errors.is_empty()
-    }
-
     /// 0 all verified, 1 something diverged or an invariant broke, 2 bad input or it could not run.
     pub fn exit_code(&self) -> u8 {
         let any = |verdict| self.recordings.iter().any(|r| r.verdict == verdict);

@@ -63,9 +63,9 @@ pub fn verify(paths: &[PathBuf], options: &VerifyOptions, progress: &dyn Progres
     verify_with(paths, options, progress, &open_file).report
 }
 
-/// The same, with what a page shows of them.
-pub fn verify_in_detail(paths: &[PathBuf], options: &VerifyOptions, progress: &dyn Progress) -> Blob {
-    verify_with(paths, &VerifyOptions { details: true, ..options.clone() }, progress, &open_file)
+/// The same, with what a page shows of them, if the options ask for details.
+pub fn verify_to_blob(paths: &[PathBuf], options: &VerifyOptions, progress: &dyn Progress) -> Blob {
+    verify_with(paths, options, progress, &open_file)
 }
 
 pub(super) fn verify_with(
