@@ -6,6 +6,7 @@ use super::bless::bless_with;
 use super::suite::verify_with;
 use super::*;
 use crate::assets::{self, CacheOptions, list_files, read_file, write_file};
+use crate::canvas::Studio;
 use crate::recording::{Script, to_bytes};
 use crate::replay::toy::{Toy, ToyEvent, ToyState};
 use crate::replay::{Options, Replay, Session};
@@ -14,7 +15,7 @@ use ToyEvent::{Add, Checkpoint, Click, Undo};
 /// A folder with recordings and their goldens.
 struct Suite(tempfile::TempDir);
 
-fn open(path: &Path, options: Options) -> Result<Box<dyn Replay>, String> {
+fn open(path: &Path, options: Options, _: Option<&dyn Studio>) -> Result<Box<dyn Replay>, String> {
     let bytes = read_file(path).map_err(|e| e.to_string())?;
     let events: Vec<ToyEvent> = serde_json::from_slice(&bytes).map_err(|e| e.to_string())?;
     assert!(!matches!(events.first(), Some(Add(0, 666.0))), "a bug of ours");
@@ -61,7 +62,7 @@ impl Suite {
     }
 
     fn verify_as(&self, options: &VerifyOptions) -> VerifyReport {
-        verify_with(&[self.at("recordings")], options, &(), &open)
+        verify_with(&[self.at("recordings")], options, &(), &open).report
     }
 }
 
@@ -303,7 +304,7 @@ fn a_filter_picks_by_name() {
         ("wound/a", 0)
     );
     assert_eq!(filtered("nothing-like-it").exit_code(), 2);
-    let nowhere = verify_with(&[suite.at("recordings/none")], &VerifyOptions::default(), &(), &open);
+    let nowhere = verify_with(&[suite.at("recordings/none")], &VerifyOptions::default(), &(), &open).report;
     assert_eq!(nowhere.exit_code(), 2);
 }
 
