@@ -35,6 +35,16 @@ fn fc(bencher: Bencher<'_, '_>, sample: &str) {
 }
 
 #[divan::bench(args = samples(), sample_count = 200, sample_size = 1)]
+fn gp(bencher: Bencher<'_, '_>, sample: &str) {
+    bench(bencher, sample, "GP");
+}
+
+#[divan::bench(args = samples(), sample_count = 200, sample_size = 1)]
+fn pp(bencher: Bencher<'_, '_>, sample: &str) {
+    bench(bencher, sample, "PP");
+}
+
+#[divan::bench(args = samples(), sample_count = 200, sample_size = 1)]
 fn mc(bencher: Bencher<'_, '_>, sample: &str) {
     bench(bencher, sample, "MC");
 }

@@ -11,6 +11,7 @@
 //! | [`recording`] | the file format and its JSON script, the reducer |
 //! | [`report`] | checks, outcomes, reports: plain data that any front end can show |
 //! | [`engine`] | what an engine is; `wound` is one |
+//! | [`render`] | who carries out what can be asked of pixels: the CPU reference, the GPU |
 //! | [`replay`] | the session: events through stages, clock, digests, checks, journal, keyframes, seek |
 //! | [`verify`] | goldens and their pictures: compare, bless, shard and merge, pages |
 //! | [`measure`] | time against error, stability, scaling, the thesis's tables |
@@ -51,6 +52,7 @@ pub mod geometry;
 pub mod measure;
 pub mod mesh;
 pub mod recording;
+pub mod render;
 pub mod replay;
 pub mod report;
 pub mod verify;

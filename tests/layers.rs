@@ -44,6 +44,11 @@ const ROOMS: &[Room] = &[
         why: "it makes meshes and maps of what a recording names, and knows nothing of cuts",
     },
     Room {
+        name: "render",
+        may_name: &["canvas", "geometry", "mesh", "report"],
+        why: "it carries jobs out, and knows no engine, file or session",
+    },
+    Room {
         name: "replay",
         may_name: &["assets", "canvas", "engine", "mesh", "recording", "report"],
         why: "the session drives engines, and knows no goldens and no front end",
@@ -86,8 +91,8 @@ const BANS: &[Ban] = &[
     Ban { path: "std::env::var", but: &[], why: "an environment must not decide what a run does" },
     Ban {
         path: "std::time",
-        but: &["replay", "verify", "measure", "cli"],
-        why: "only what times a run knows a clock",
+        but: &["replay", "render", "verify", "measure", "cli"],
+        why: "only what times a run, or a pass of a frame, knows a clock",
     },
     Ban { path: "std::time::SystemTime", but: &[], why: "a run does not depend on its date" },
     Ban {

@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use lancet::assets::{self, CacheOptions, SceneSettings};
-use lancet::canvas::look::Look;
 use lancet::engine::wound::{Control, Scene, State, Work, Wound, WoundEvent};
 use lancet::engine::{Engine, Part, Stage, Start};
 use lancet::recording::AnyRecording;
@@ -66,7 +65,7 @@ pub(crate) fn stage(id: &str) -> &'static Stage<Wound> {
 
 /// How a scene is looked at.
 pub(crate) fn look(settings: &SceneSettings, viewport: [u32; 2]) -> Scene {
-    let SceneSettings { unit_cm, snap_px, fov_y, target, azimuth, zenith, distance } = *settings;
-    let (look, map_size) = (Look::default(), [1024; 2]);
+    let SceneSettings { unit_cm, snap_px, fov_y, target, azimuth, zenith, distance, look } = settings.clone();
+    let map_size = [1024; 2];
     Scene { viewport, unit_cm, snap_px, fov_y, target, azimuth, zenith, distance, look, map_size }
 }

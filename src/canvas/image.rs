@@ -22,8 +22,6 @@ use std::fmt;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::look::Skin;
-
 /// An image: RGBA, 8 bits a channel, rows from the top.
 #[derive(Clone, PartialEq, Eq, Default)]
 pub struct Image {
@@ -94,19 +92,4 @@ pub struct Maps {
     pub occlusion: Image,
     /// Specular intensity and roughness.
     pub specular: Image,
-}
-
-impl Maps {
-    /// One texel each, with what a scene without maps has.
-    pub fn plain(skin: &Skin) -> Self {
-        let byte = |v: f32| (v.clamp(0.0, 1.0) * 255.0).round() as u8;
-        let [r, g, b] = skin.albedo.map(byte);
-        let one = |texel| Image::filled([1, 1], texel);
-        Self {
-            color: one([r, g, b, 255]),
-            normal: one([128, 128, 255, 255]),
-            occlusion: one([255; 4]),
-            specular: one([byte(skin.intensity), byte(skin.roughness), 0, 255]),
-        }
-    }
 }

@@ -5,8 +5,6 @@ use std::path::{Path, PathBuf};
 
 use super::{Options, Replay, Session};
 use crate::assets::{self, AssetError, CacheOptions, Loaded, SceneSettings};
-use crate::canvas::image::Maps;
-use crate::canvas::look::Look;
 use crate::canvas::{RenderError, Renderer, Studio};
 use crate::engine::wound::{self, Wound};
 use crate::engine::{Control, Engine, Event};
@@ -134,8 +132,9 @@ pub fn open(
                 Some(studio) if needs_pixels(recording, &options) => Some(renderer(&scene, studio)?),
                 _ => None,
             };
-            let Loaded { mesh, settings, .. } = scene;
-            let state = wound::State::new(mesh, wound_scene(&settings, recording.viewport));
+            let Loaded { mesh, settings, maps, .. } = scene;
+            let scene = wound_scene(&settings, maps.color_size(), recording.viewport);
+            let state = wound::State::new(mesh, scene);
             Ok(Box::new(session::<Wound>(state, recording, options).with_renderer(renderer)))
         }
     }
@@ -153,13 +152,12 @@ fn needs_pixels<E: Event>(recording: &Recording<E>, options: &Options) -> bool {
 }
 
 fn renderer(scene: &Loaded, studio: &dyn Studio) -> Result<Box<dyn Renderer>, OpenError> {
-    let maps = Maps::plain(&Look::default().skin);
-    studio.open(std::sync::Arc::new(maps), &scene.mesh).map_err(OpenError::Render)
+    let maps = scene.maps.load().map_err(OpenError::Asset)?;
+    studio.open(maps, &scene.mesh).map_err(OpenError::Render)
 }
 
-fn wound_scene(settings: &SceneSettings, viewport: [u32; 2]) -> wound::Scene {
-    let SceneSettings { unit_cm, snap_px, fov_y, target, azimuth, zenith, distance, .. } = *settings;
-    let (look, map_size) = (Look::default(), [1024; 2]);
+fn wound_scene(settings: &SceneSettings, map_size: [u32; 2], viewport: [u32; 2]) -> wound::Scene {
+    let SceneSettings { unit_cm, snap_px, fov_y, target, azimuth, zenith, distance, look } = settings.clone();
     wound::Scene { viewport, unit_cm, snap_px, fov_y, target, azimuth, zenith, distance, look, map_size }
 }
 

@@ -33,7 +33,7 @@ pub(super) fn lips(p: DVec3) -> f64 {
 /// The line where the lips meet.
 pub(super) fn lip_line(p: DVec3) -> f64 {
     let q = folded(p);
-    if q.z < 5.0 { 0.0 } else { step(0.12, 0.0, (q.y + 5.58 - 0.01 * q.x * q.x).abs()) * step(2.7, 2.3, q.x) }
+    if q.z < 5.0 { 0.0 } else { step(0.16, 0.0, (q.y + 5.58 - 0.01 * q.x * q.x).abs()) * step(2.7, 2.3, q.x) }
 }
 
 pub(super) fn brow(p: DVec3) -> f64 {
@@ -65,7 +65,7 @@ pub(super) fn lashes(p: DVec3) -> f64 {
 }
 
 pub(super) fn cheek(p: DVec3) -> f64 {
-    spot(folded(p), dvec3(4.2, -2.0, 6.6), dvec3(2.6, 2.3, 3.0))
+    spot(folded(p), dvec3(4.3, -2.1, 6.4), dvec3(3.6, 3.3, 4.0))
 }
 
 pub(super) fn nose(p: DVec3) -> f64 {

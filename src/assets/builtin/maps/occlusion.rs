@@ -68,7 +68,7 @@ fn open_share(mesh: &Mesh, tree: &Bvh, origin: DVec3, normal: DVec3, directions:
         let cosine = normal.dot(direction);
         if cosine > 0.0 {
             let met = nearest(mesh, tree, Ray { origin, direction }) / REACH_CM;
-            open += cosine * met * (2.0 - met);
+            open += cosine * met * met;
             all += cosine;
         }
     }

@@ -14,8 +14,10 @@ use super::skin::to_byte;
 use super::texels::Site;
 
 /// Noises that make up the skin's grain: cell, cm, and how steep each is.
-const GRAIN: [(f64, f64); 4] = [(1.10, 0.035), (0.46, 0.065), (0.21, 0.10), (0.105, 0.09)];
+const GRAIN: [(f64, f64); 4] = [(1.10, 0.02), (0.46, 0.025), (0.21, 0.065), (0.105, 0.07)];
 const TEXELS_A_CELL: f64 = 3.0;
+/// The relief is never as steep as this z of its normal would say.
+const LEAST_UPRIGHT: f64 = 0.7;
 
 /// The relief of the bust at the size of a texel.
 pub(super) struct Relief {
@@ -58,8 +60,8 @@ impl Relief {
             }
             stretched(p, cells, seed).slope * (weight * steepness * narrowest)
         };
-        line(features::forehead(p), DVec3::new(6.0, 0.42, 6.0), 0.07, 30)
-            + line(features::neck(p), DVec3::new(7.0, 0.55, 7.0), 0.05, 31)
+        line(features::forehead(p), DVec3::new(6.0, 0.42, 6.0), 0.10, 30)
+            + line(features::neck(p), DVec3::new(7.0, 0.55, 7.0), 0.07, 31)
             + line(lips, DVec3::new(0.20, 1.2, 2.0), 0.10, 32)
     }
 }
@@ -69,10 +71,11 @@ fn pits(Noise { value, slope }: Noise) -> DVec3 {
     slope * (-2.0 * (value + 0.5).max(0.0))
 }
 
-/// The x, y and z with x T + y B + z N along a direction, at length 1; flat where the frame spans no space.
+/// The x, y and z with x T + y B + z N along a direction, at length 1. Flat where the frame all but collapses, as in the root of an ear,
+/// where the surface folds back on itself: no small step from the normal leads there.
 fn in_frame(target: DVec3, site: &Site) -> [f64; 3] {
     let ([t, b], n) = (site.tangents, site.normal);
     let parts = DVec3::new(target.dot(b.cross(n)), target.dot(n.cross(t)), target.dot(t.cross(b)));
-    let volume = t.dot(b.cross(n));
-    if volume.abs() < 1e-3 { [0.0, 0.0, 1.0] } else { (parts / volume).normalize_or(DVec3::Z).to_array() }
+    let found = (parts / t.dot(b.cross(n))).normalize_or(DVec3::Z);
+    if found.z < LEAST_UPRIGHT { [0.0, 0.0, 1.0] } else { found.to_array() }
 }

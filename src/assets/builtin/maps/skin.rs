@@ -14,9 +14,9 @@ const LIP_LINE: DVec3 = dvec3(0.40, 0.17, 0.16);
 const LIDS: DVec3 = dvec3(0.71, 0.50, 0.45);
 const HAIR: DVec3 = dvec3(0.22, 0.15, 0.11);
 const STUBBLE: DVec3 = dvec3(0.60, 0.51, 0.48);
-const MOLE: DVec3 = dvec3(0.50, 0.32, 0.25);
+const FRECKLE: DVec3 = dvec3(0.50, 0.32, 0.25);
 /// What blood close below the surface adds.
-const FLUSH: DVec3 = dvec3(0.035, -0.085, -0.075);
+const FLUSH: DVec3 = dvec3(0.02, -0.075, -0.06);
 
 /// Plain skin: hue wanders over centimetres, redness over one, brightness over millimetres.
 pub(super) fn tone(p: DVec3) -> DVec3 {
@@ -37,10 +37,10 @@ pub(super) fn color(p: DVec3) -> [u8; 4] {
     let mut color = tone(p) + FLUSH * flush.min(1.2) * patchy;
     color = color.lerp(STUBBLE, features::beard(p) * (0.30 + 0.14 * fine));
     color = color.lerp(LIDS, 0.7 * features::lids(p));
-    color = color.lerp(MOLE, 0.8 * moles(p));
+    color = color.lerp(FRECKLE, 0.35 * freckles(p));
     let lips = features::lips(p);
     color = color.lerp(LIPS + 0.03 * patchy * fine, 0.85 * lips);
-    color = color.lerp(LIP_LINE, 0.8 * features::lip_line(p));
+    color = color.lerp(LIP_LINE, 0.65 * features::lip_line(p));
     color = color.lerp(HAIR, 0.7 * features::lashes(p));
     let brow = features::brow(p);
     if brow > 0.0 {
@@ -63,9 +63,9 @@ pub(super) fn blank() -> [u8; 4] {
     [r, g, b, 255]
 }
 
-/// A few dark spots.
-fn moles(p: DVec3) -> f64 {
-    step(0.80, 0.90, noise(p, 0.9, 7).value)
+/// Freckles, a few.
+fn freckles(p: DVec3) -> f64 {
+    step(0.84, 0.95, noise(p, 0.5, 7).value)
 }
 
 /// Hairs that lean outwards and up, 0 between them.

@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
 
 use crate::canvas::image::Image;
-use crate::mesh::{Face, FaceId, Mesh};
+use crate::mesh::{Face, FaceId, Mesh, Vertex};
 
 /// Texels around a chart that are painted as if it went on.
 pub(super) const PADDING: u32 = 5;
@@ -129,19 +129,24 @@ impl<'a> Texels<'a> {
             return None;
         }
         let weights = weights(self.corners(face), DVec2::new(x.into(), y.into()));
-        let Face { nodes, vertices, .. } = *self.mesh.face(face);
+        Some(Site::on(self.mesh, face, weights))
+    }
+}
+
+impl Site {
+    /// The place of a face that lies this near to each of its corners.
+    pub(super) fn on(mesh: &Mesh, face: FaceId, weights: [f64; 3]) -> Self {
+        let Face { nodes, vertices, .. } = *mesh.face(face);
         let mix =
             |points: [DVec3; 3]| points[0] * weights[0] + points[1] * weights[1] + points[2] * weights[2];
-        let of = |get: fn(&crate::mesh::Vertex) -> Vec3| {
-            mix(vertices.map(|v| get(&self.mesh.vertex(v)).as_dvec3()))
-        };
-        Some(Site {
-            position: mix(nodes.map(|n| self.mesh.position(n))),
+        let of = |get: fn(&Vertex) -> Vec3| mix(vertices.map(|v| get(&mesh.vertex(v)).as_dvec3()));
+        Self {
+            position: mix(nodes.map(|n| mesh.position(n))),
             normal: of(|v| v.normal).normalize_or(DVec3::Y),
             tangents: [of(|v| v.tangent), of(|v| v.bitangent)],
             face,
             weights,
-        })
+        }
     }
 }
 

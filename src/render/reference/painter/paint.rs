@@ -1,0 +1,193 @@
+//! PP: laying a patch and a discoloration on the maps (Lam 2016, §5.3.2 and §5.4), as [`canvas::job`](crate::canvas::job) defines it.
+//!
+//! Two steps for each tile, tiles side by side: first (s, d) of every texel, each from the one triangle that has it; then what they
+//! do to the texel. What a tile becomes depends on no other tile.
+
+use rayon::prelude::*;
+
+use super::journal::Tile;
+use super::noise::fbm;
+use super::patch::byte;
+use crate::canvas::image::Image;
+use crate::canvas::job::{PaintJob, Painting};
+use crate::render::layout::{Affine, Layout, TILE, corners, lay_out, tile_window, tiles_of};
+use crate::render::spans::{PARTS, Window, spans};
+
+/// x of the patch at s = 0, and what it grows by up to c_l.
+const ACROSS: [f32; 2] = [0.025, 0.95];
+
+/// What is painted on.
+#[derive(Clone, Copy)]
+pub(super) struct Ground<'a> {
+    /// 1 where a face lies.
+    pub mask: &'a [u8],
+    pub color: &'a Image,
+    pub discolor: &'a Image,
+}
+
+/// The tiles that a painting changes, as they are afterwards.
+pub(super) fn paint(painting: &Painting, patch: &Image, ground: Ground<'_>) -> Vec<Tile> {
+    let size = ground.color.size;
+    let layout = lay_out(&painting.paint, size);
+    let bins = bins(&layout, size);
+    let brush = Brush { job: &painting.paint, patch };
+    let tiles = layout.tiles.par_iter().zip(&bins).filter_map(|(index, bin)| {
+        let coordinates = Coordinates::of(tile_window(*index, size), &layout, bin, ground.mask, size);
+        brush.apply(*index, &coordinates, ground)
+    });
+    tiles.collect()
+}
+
+/// Every texel that a painting uses, with its (s, d).
+pub(super) fn used(job: &PaintJob, mask: &[u8], size: [u32; 2]) -> Vec<([u32; 2], [f32; 2])> {
+    let layout = lay_out(job, size);
+    let bins = bins(&layout, size);
+    let tiles = layout.tiles.iter().zip(&bins);
+    tiles
+        .flat_map(|(index, bin)| Coordinates::of(tile_window(*index, size), &layout, bin, mask, size).used())
+        .collect()
+}
+
+/// For each tile the triangles whose boxes meet it, in their order.
+fn bins(layout: &Layout, size: [u32; 2]) -> Vec<Vec<u32>> {
+    let mut bins = vec![Vec::new(); layout.tiles.len()];
+    let tiles = tiles_of(size);
+    for (k, triangle) in (0u32..).zip(&layout.triangles) {
+        let range = |axis: usize| {
+            let all = triangle.corners.map(|corner| corner[axis]);
+            let [least, most] =
+                [f32::min, f32::max].map(|pick| pick(pick(all[0], all[1]), all[2]) / TILE as f32);
+            // Casts end at the type's bounds.
+            least as u32..=(most as u32).min(tiles[axis] - 1)
+        };
+        let (rows, columns) = (range(1), range(0));
+        for index in rows.flat_map(|y| columns.clone().map(move |x| y * tiles[0] + x)) {
+            if let Ok(slot) = layout.tiles.binary_search(&index) {
+                bins[slot].push(k);
+            }
+        }
+    }
+    bins
+}
+
+/// (s, d) of a tile's texels.
+struct Coordinates {
+    window: Window,
+    at: Vec<Option<[f32; 2]>>,
+}
+
+impl Coordinates {
+    fn of(window: Window, layout: &Layout, bin: &[u32], mask: &[u8], size: [u32; 2]) -> Self {
+        let [w, h] = [0, 1].map(|k| window.to[k] - window.from[k]);
+        let mut coordinates = Self { window, at: vec![None; (w * h) as usize] };
+        for triangle in bin.iter().map(|k| &layout.triangles[*k as usize]) {
+            let corners = corners(triangle);
+            let affine = Affine::new(corners, triangle.at);
+            spans(corners, window, |y, columns| {
+                for x in columns {
+                    let free = || mask[y as usize * size[0] as usize + x as usize] == 0;
+                    if !triangle.skirt || free() {
+                        let centre = [x, y].map(|v| i64::from(v) * PARTS + PARTS / 2);
+                        coordinates.put([x, y], affine.at(centre).map(|v| v as f32));
+                    }
+                }
+            });
+        }
+        coordinates
+    }
+
+    fn put(&mut self, [x, y]: [u32; 2], at: [f32; 2]) {
+        let width = self.window.to[0] - self.window.from[0];
+        let index = (y - self.window.from[1]) * width + (x - self.window.from[0]);
+        self.at[index as usize] = Some(at);
+    }
+
+    fn used(&self) -> Vec<([u32; 2], [f32; 2])> {
+        let Window { from, to } = self.window;
+        let texels = (from[1]..to[1]).flat_map(|y| (from[0]..to[0]).map(move |x| [x, y]));
+        texels.zip(&self.at).filter_map(|(texel, at)| at.map(|at| (texel, at))).collect()
+    }
+}
+
+/// A patch and a discoloration on their way to the maps.
+struct Brush<'a> {
+    job: &'a PaintJob,
+    patch: &'a Image,
+}
+
+impl Brush<'_> {
+    /// What a tile becomes; `None` if it stays as it is.
+    fn apply(&self, index: u32, coordinates: &Coordinates, ground: Ground<'_>) -> Option<Tile> {
+        let mut tile = Tile::read(index, ground.color, ground.discolor);
+        let mut changed = false;
+        let texels = tile.color.iter_mut().zip(&mut tile.discolor).zip(&coordinates.at);
+        for ((color, discolor), at) in texels {
+            let Some(at) = at else { continue };
+            let after = (self.color(*at, *color), self.discolor(*at, *discolor));
+            changed |= after != (*color, *discolor);
+            (*color, *discolor) = after;
+        }
+        changed.then_some(tile)
+    }
+
+    /// The patch over a colour.
+    fn color(&self, [s, d]: [f32; 2], under: [u8; 4]) -> [u8; 4] {
+        let x = ACROSS[0] + ACROSS[1] * s / self.job.length;
+        let y = 0.5 - d / self.job.height;
+        let unit = 0.0..=1.0;
+        let there = self.patch.size.iter().all(|side| *side > 1);
+        if !there || !unit.contains(&x) || !unit.contains(&y) {
+            return under;
+        }
+        let [r, g, b, a] = bilinear(self.patch, [x, y]);
+        let under_rgb = [under[0], under[1], under[2]].map(f32::from);
+        let over = |k: usize, patch: f32| (patch + (1.0 - a / 255.0) * under_rgb[k] + 0.5) as u8;
+        [over(0, r), over(1, g), over(2, b), under[3]]
+    }
+
+    /// The stronger of a discoloration and the one that is there.
+    fn discolor(&self, [s, d]: [f32; 2], there: [u8; 4]) -> [u8; 4] {
+        let PaintJob { length, height, .. } = *self.job;
+        let t = 2.0 * (s / length).clamp(0.0, 1.0) - 1.0;
+        let radius = 0.5 * height * (1.0 - 0.5 * t * t);
+        let beyond = (-s).max(s - length).max(0.0);
+        let distance = (beyond * beyond + d * d).sqrt();
+        let most = 1.0 - distance / (2.0 * radius);
+        // Of a NaN it is not known to be more.
+        let reached = most > 0.0;
+        if !reached {
+            return there;
+        }
+        let alpha = byte(self.strength([s, d], most, 1.1 - distance / radius));
+        let [r, g, b] = self.job.factor.map(|f| byte(0.5 * f));
+        if alpha > there[3] { [r, g, b, alpha] } else { there }
+    }
+
+    /// α of the discoloration: noise up to `most`, and `core` more.
+    fn strength(&self, [s, d]: [f32; 2], most: f32, core: f32) -> f32 {
+        let core = core.max(0.0);
+        if core >= 1.0 {
+            // Whatever the noise adds.
+            return 1.0;
+        }
+        let (scale, [ox, oy]) = (self.job.noise_scale, self.job.offset);
+        let noise = fbm([scale * s + ox, scale * d + oy], &self.job.noise);
+        (noise.max(0.0).min(most) + core).min(1.0)
+    }
+}
+
+/// The patch between its four nearest texels, in 1/255.
+fn bilinear(patch: &Image, at: [f32; 2]) -> [f32; 4] {
+    let [(x, right, tx), (y, below, ty)] = [0, 1].map(|k| {
+        let last = patch.size[k] - 1;
+        let place = at[k] * last as f32;
+        let first = (place as u32).min(last);
+        (first, (first + 1).min(last), place - first as f32)
+    });
+    let row = |y: u32| {
+        let (left, right) = (patch.at(x, y), patch.at(right, y));
+        [0, 1, 2, 3].map(|k| f32::from(left[k]) + (f32::from(right[k]) - f32::from(left[k])) * tx)
+    };
+    let (upper, lower) = (row(y), row(below));
+    [0, 1, 2, 3].map(|k| upper[k] + (lower[k] - upper[k]) * ty)
+}
