@@ -193,7 +193,7 @@ impl Sums {
     }
 }
 
-pub(super) fn structure(golden: &Image, found: &Image) -> f64 {
+fn structure(golden: &Image, found: &Image) -> f64 {
     let score = rgb(golden).zip(rgb(found)).and_then(|(a, b)| rgb_hybrid_compare(&a, &b).ok());
     score.map_or(1.0, |similarity| (1.0 - similarity.score).clamp(0.0, 1.0))
 }

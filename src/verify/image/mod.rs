@@ -9,7 +9,7 @@ mod plant;
 mod skin;
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

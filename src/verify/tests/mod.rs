@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+mod pictures;
+
 use super::bless::bless_with;
 use super::suite::verify_with;
 use super::*;
@@ -324,13 +326,18 @@ const SQUARE: &str = r#"{ "version": 1, "viewport": [100, 100], "seed": 3,
     "scene": { "inline": { "nodes": [[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], "faces": [[0, 1, 2], [0, 2, 3]] } },
     "events": [ { "mode": "merge" }, { "click": [45, 40] }, { "click": [60, 55] }, { "checkpoint": "cut" } ] }"#;
 
+/// A script, packed.
+fn packed(script: &str) -> Vec<u8> {
+    let mut recording = Script::parse(script.as_bytes()).expect("a script").unhashed().clone();
+    let scene = assets::open(recording.scene(), Path::new(""), &CacheOptions::off()).expect("a scene");
+    recording.set_hashes([scene.scene_hash, scene.mesh_hash]);
+    to_bytes(&recording).expect("it has a form")
+}
+
 #[test]
 fn a_corrupted_node_of_a_real_cut_is_named() {
     let suite = Suite::new(&[]);
-    let mut recording = Script::parse(SQUARE.as_bytes()).expect("a script").unhashed().clone();
-    let scene = assets::open(recording.scene(), Path::new(""), &CacheOptions::off()).expect("a scene");
-    recording.set_hashes([scene.scene_hash, scene.mesh_hash]);
-    suite.put("recordings/square.lancet", &to_bytes(&recording).expect("it has a form"));
+    suite.put("recordings/square.lancet", &packed(SQUARE));
     let paths = [suite.at("recordings")];
     assert_eq!(bless(&paths, &because("a test"), &()).exit_code(), 0);
     let report = verify(&paths, &VerifyOptions::default(), &());
