@@ -65,7 +65,7 @@ const ROOMS: &[Room] = &[
     },
     Room {
         name: "cli",
-        may_name: &["assets", "measure", "recording", "replay", "report", "verify"],
+        may_name: &["assets", "canvas", "measure", "recording", "render", "replay", "report", "verify"],
         why: "a front end shows reports: it computes nothing, and knows no engine",
     },
 ];

@@ -1,5 +1,6 @@
 //! `lancet render`: a frame of a scene.
 
+use std::io::Write;
 use std::path::Path;
 
 use schemars::JsonSchema;

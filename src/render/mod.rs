@@ -7,6 +7,7 @@
 //! | [`spans`] | which texels a triangle covers |
 //! | [`mask`] | which texels the skin covers |
 //! | [`layout`] | what a painting touches: triangles and tiles |
+//! | [`overlay`] | what is drawn over a frame |
 //! | [`inspect`] | GP's and PP's invariants of pixels |
 //!
 //! A front end asks for a [`studio`] and hands it on. Nobody else knows which renderer it is.
@@ -16,6 +17,7 @@ pub mod inspect;
 pub mod kernel;
 pub mod layout;
 pub mod mask;
+pub mod overlay;
 pub mod reference;
 pub mod spans;
 pub mod srgb;

@@ -7,8 +7,7 @@ pub type Flat = [DVec2; 3];
 
 /// Distance from a point to the line.
 pub fn to_line(p: DVec2, length: f64) -> f64 {
-    let beyond = (-p.x).max(p.x - length).max(0.0);
-    DVec2::new(beyond, p.y).length()
+    to_line_squared(p, length).sqrt()
 }
 
 /// Distance from the segment between two points to the line; 0 where they cross.
@@ -16,18 +15,19 @@ pub fn side_to_line(a: DVec2, b: DVec2, length: f64) -> f64 {
     if crosses(a, b, length) {
         return 0.0;
     }
-    let end = DVec2::new(length, 0.0);
-    let ends = to_segment(DVec2::ZERO, a, b).min(to_segment(end, a, b));
-    ends.min(to_line(a, length)).min(to_line(b, length))
+    let ends = [DVec2::ZERO, DVec2::new(length, 0.0)].map(|end| to_segment_squared(end, a, b));
+    let corners = [a, b].map(|corner| to_line_squared(corner, length));
+    ends[0].min(ends[1]).min(corners[0]).min(corners[1]).sqrt()
 }
 
-/// Distance from a triangle to the line; 0 where they meet. Its orientation does not matter.
-pub fn triangle_to_line(corners: &Flat, length: f64) -> f64 {
-    if contains(corners, DVec2::ZERO) {
-        return 0.0;
-    }
-    let [a, b, c] = *corners;
-    side_to_line(a, b, length).min(side_to_line(b, c, length)).min(side_to_line(c, a, length))
+/// Distances from a triangle's sides to the line, from each corner to the next.
+pub fn sides_to_line(&[a, b, c]: &Flat, length: f64) -> [f64; 3] {
+    [side_to_line(a, b, length), side_to_line(b, c, length), side_to_line(c, a, length)]
+}
+
+/// Distance from a triangle to the line, given those of its sides; 0 where they meet. Its orientation does not matter.
+pub fn triangle_to_line(corners: &Flat, sides: [f64; 3]) -> f64 {
+    if contains(corners, DVec2::ZERO) { 0.0 } else { sides[0].min(sides[1]).min(sides[2]) }
 }
 
 /// Where the third corner c of a triangle in space lies on the plane, when a lies at `at[0]` and b at `at[1]`.
@@ -53,10 +53,15 @@ fn crosses(a: DVec2, b: DVec2, length: f64) -> bool {
     (0.0..=length).contains(&x)
 }
 
-fn to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
+fn to_line_squared(p: DVec2, length: f64) -> f64 {
+    let beyond = (-p.x).max(p.x - length).max(0.0);
+    DVec2::new(beyond, p.y).length_squared()
+}
+
+fn to_segment_squared(p: DVec2, a: DVec2, b: DVec2) -> f64 {
     let ab = b - a;
     let t = ((p - a).dot(ab) / ab.length_squared()).clamp(0.0, 1.0);
-    p.distance(if t.is_nan() { a } else { a + ab * t })
+    p.distance_squared(if t.is_nan() { a } else { a + ab * t })
 }
 
 fn contains(&[a, b, c]: &Flat, p: DVec2) -> bool {
@@ -79,14 +84,14 @@ mod tests {
         assert_eq!(to_line(at(8.0, 4.0), 5.0), 5.0);
         assert_eq!(side_to_line(at(1.0, 1.0), at(3.0, -1.0), 5.0), 0.0);
         assert_eq!(side_to_line(at(-2.0, 1.0), at(-2.0, -1.0), 5.0), 2.0);
-        assert_eq!(side_to_line(at(7.0, 1.0), at(6.0, -5.0), 5.0).to_bits(), {
-            let (from, to) = (at(7.0, 1.0), at(6.0, -5.0));
-            to_segment(at(5.0, 0.0), from, to).to_bits()
-        });
+        // The nearest point of the line is its end, that of the segment neither of its ends.
+        assert!((side_to_line(at(6.0, -1.0), at(8.0, 1.0), 5.0) - 2f64.sqrt()).abs() < 1e-15);
     }
 
     #[test]
     fn a_triangle_around_the_whole_line_or_across_it_is_at_no_distance() {
+        let triangle_to_line =
+            |corners: &Flat, length| triangle_to_line(corners, sides_to_line(corners, length));
         assert_eq!(triangle_to_line(&[at(-9.0, -9.0), at(9.0, -9.0), at(0.0, 9.0)], 1.0), 0.0);
         assert_eq!(triangle_to_line(&[at(2.0, -1.0), at(3.0, -1.0), at(2.5, 1.0)], 5.0), 0.0);
         assert_eq!(triangle_to_line(&[at(2.0, 1.0), at(3.0, 1.5), at(2.5, 4.0)], 5.0), 1.0);

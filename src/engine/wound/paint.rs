@@ -13,7 +13,7 @@ use glam::{DVec2, Vec2};
 use rustc_hash::FxHashMap;
 
 use super::chain::{At, Chain};
-use super::flat::triangle_to_line;
+use super::flat::{sides_to_line, triangle_to_line};
 use super::patch::{Patch, chance, offset};
 use super::settle::Formed;
 use super::surface::{Placed, SkinLink, walk};
@@ -71,15 +71,17 @@ pub fn paint(place: &Place<'_>, look: &Wound, seed: u64) -> Painted {
     let radius = place.patch.height;
     let walk = walk(place.mesh, &place.formed.chain, place.links, place.patch.length, radius);
     let by_texture = look.distance == Distance::Texture && place.patch.density > 0.0;
-    let mut pieces = match by_texture {
+    let pieces = match by_texture {
         true => in_texture(place, &walk.faces),
         false => on_surface(place, &walk.faces),
     };
-    // Parts of one face stay in their order.
-    pieces.sort_by(|a, b| a.distance.total_cmp(&b.distance).then(a.face.face.cmp(&b.face.face)));
-    let inner = pieces.partition_point(|p| p.distance <= 0.5 * radius);
-    let corners = pieces.iter().map(|p| p.corners).collect();
-    let faces = pieces.into_iter().map(|p| p.face).collect();
+    // Parts of one face stay in their order. Only keys are moved: a piece is large.
+    let mut order: Vec<(f64, u32, usize)> =
+        (0..).zip(&pieces).map(|(i, p)| (p.distance, p.face.face, i)).collect();
+    order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    let inner = order.partition_point(|key| key.0 <= 0.5 * radius);
+    let corners = order.iter().map(|key| pieces[key.2].corners).collect();
+    let faces = order.iter().map(|key| pieces[key.2].face).collect();
     let paint = job(place, look, seed, faces, inner);
     let painting = Arc::new(Painting { patch: place.patch.job.clone(), paint });
     Painted { painting, corners, torn: walk.torn }
@@ -165,7 +167,7 @@ impl Under<'_> {
             .fold(0, |open, i| open | 1 << i);
         let uv = corners.map(|(_, uv, _, _)| uv);
         let face = PaintFace { face: self.placed.face.0, uv, at: at.map(|at| at.as_vec2()), open };
-        let distance = triangle_to_line(&at, self.place.patch.length);
+        let distance = triangle_to_line(&at, sides_to_line(&at, self.place.patch.length));
         Piece { face, corners: corners.map(|(corner, ..)| corner), distance }
     }
 

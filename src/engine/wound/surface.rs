@@ -29,7 +29,7 @@ use glam::{DVec2, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::chain::{At, Chain};
-use super::flat::{Flat, side_to_line, to_line, triangle_to_line, unfold};
+use super::flat::{Flat, sides_to_line, to_line, triangle_to_line, unfold};
 use crate::mesh::{EdgeId, FaceId, Mesh, NodeId, Surface};
 
 /// The part of a line in one skin face.
@@ -87,6 +87,8 @@ pub struct Placed {
     pub at: Flat,
     /// How far its part of the plane is from the line.
     pub distance: f64,
+    /// The same of its sides, from each corner to the next.
+    pub sides: [f64; 3],
 }
 
 /// The skin around a line.
@@ -197,7 +199,8 @@ impl<'a> Front<'a> {
             if let [Some(a), Some(b), Some(c)] = corners
                 && self.seen.insert(link.face)
             {
-                self.faces.push(Placed { face: link.face, at: [a, b, c], distance: 0.0 });
+                let sides = sides_to_line(&[a, b, c], self.length);
+                self.faces.push(Placed { face: link.face, at: [a, b, c], distance: 0.0, sides });
             }
         }
         for i in 0..self.faces.len() {
@@ -237,7 +240,8 @@ impl<'a> Front<'a> {
             self.torn.insert(node);
         }
         self.note_tears(f.nodes, at);
-        Some(Placed { face, at, distance: triangle_to_line(&at, self.length) })
+        let sides = sides_to_line(&at, self.length);
+        Some(Placed { face, at, distance: triangle_to_line(&at, sides), sides })
     }
 
     /// What a face has of its own goes on into the faces behind it.
@@ -250,17 +254,14 @@ impl<'a> Front<'a> {
     }
 
     fn push_sides(&mut self, from: usize, is_on_line: impl Fn(EdgeId) -> bool) {
-        let Placed { face, at, .. } = self.faces[from];
+        let Placed { face, sides, .. } = self.faces[from];
         for side in 0..3 {
             let edge = self.mesh.face(face).edges[side];
             let Some(beyond) = self.mesh.edge(edge).other_face(face).some() else { continue };
             if self.seen.contains(&beyond) || self.mesh.face(beyond).surface == Surface::Gutter {
                 continue;
             }
-            let distance = match is_on_line(edge) {
-                true => 0.0,
-                false => side_to_line(at[side], at[(side + 1) % 3], self.length),
-            };
+            let distance = if is_on_line(edge) { 0.0 } else { sides[side] };
             if distance <= self.radius {
                 // The bits of floats that are not negative are in the order of the floats.
                 self.steps.push(Reverse((distance.to_bits(), beyond, from as u32, side as u8)));

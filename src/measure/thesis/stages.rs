@@ -204,7 +204,7 @@ impl Sample {
 mod tests {
     use super::*;
     use crate::assets;
-    use crate::render::Reference;
+    use crate::render::reference::Reference;
 
     #[test]
     fn a_sample_is_its_first_applied_cut_and_nothing_is_left_of_it() {
@@ -214,7 +214,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("cut.json");
         assets::write_file(&path, script.as_bytes()).expect("it is written");
-        let studio = Reference::default();
+        let studio = Reference::new();
         let sample = sample(CUTS[0], &path, 3, &studio).expect("it has a cut");
         assert!(sample.ms.iter().all(|figure| figure.median > 0.0), "{sample:?}");
         assert!(sample.total_ms.median >= sample.mesh_ms.median, "{sample:?}");

@@ -109,8 +109,32 @@ pub(super) fn plate(n: u32) -> IndexedMesh {
     mesh
 }
 
+/// An open sheet of n x n squares, each cut along its diagonal, with positions and texture coordinates by column and row.
+pub(super) fn sheet(
+    n: u32,
+    position: impl Fn(u32, u32) -> DVec3,
+    uv: impl Fn(u32, u32) -> Vec2,
+) -> IndexedMesh {
+    let at = |i: u32, j: u32| j * (n + 1) + i;
+    let nodes = || (0..=n).flat_map(|j| (0..=n).map(move |i| (i, j)));
+    let squares = (0..n).flat_map(|j| (0..n).map(move |i| (i, j)));
+    let halves = |(i, j)| {
+        let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+        [[a, b, c], [a, c, d]]
+    };
+    let faces: Vec<[u32; 3]> = squares.flat_map(halves).collect();
+    let positions = nodes().map(|(i, j)| position(i, j)).collect();
+    let uvs = nodes().map(|(i, j)| uv(i, j)).collect();
+    IndexedMesh { positions, face_uvs: faces.clone(), faces, uvs, ..IndexedMesh::default() }
+}
+
 /// A state that looks at a mesh from +z.
 pub(super) fn state(mesh: &IndexedMesh) -> State {
+    state_with(mesh, Look::default())
+}
+
+/// The same with a look.
+pub(super) fn state_with(mesh: &IndexedMesh, look: Look) -> State {
     let scene = Scene {
         viewport: [640, 360],
         unit_cm: 1.0,
@@ -120,7 +144,7 @@ pub(super) fn state(mesh: &IndexedMesh) -> State {
         azimuth: 0.0,
         zenith: std::f64::consts::FRAC_PI_2,
         distance: None,
-        look: Look::default(),
+        look,
         map_size: [1024; 2],
     };
     State::new(Mesh::build(mesh).unwrap(), scene)
@@ -165,7 +189,7 @@ pub(super) fn applied(state: &mut State, work: &mut Work, event: &WoundEvent) {
 }
 
 /// A cut that must apply, with what its stages found out.
-fn cut_work(state: &mut State, from: Pick, to: Pick) -> Box<Cut> {
+pub(super) fn cut_work(state: &mut State, from: Pick, to: Pick) -> Box<Cut> {
     let event = WoundEvent::Cut { from, to };
     let Start::Run(mut work) = Wound::start(state, &event, 0) else { panic!("{event:?} does not start") };
     applied(state, &mut work, &event);
@@ -176,13 +200,18 @@ fn cut_work(state: &mut State, from: Pick, to: Pick) -> Box<Cut> {
     }
 }
 
-/// FC's line of a cut that is not merged.
-pub(super) fn formed(state: &mut State, from: Pick, to: Pick) -> Chain {
+/// A cut that is painted and not merged.
+pub(super) fn painted(state: &mut State, from: Pick, to: Pick) -> Box<Cut> {
     let before = state.control.mode;
     mode(state, Mode::Patch);
-    let chain = cut_work(state, from, to).formed.chain;
+    let cut = cut_work(state, from, to);
     mode(state, before);
-    chain
+    cut
+}
+
+/// FC's line of a cut that is not merged.
+pub(super) fn formed(state: &mut State, from: Pick, to: Pick) -> Chain {
+    painted(state, from, to).formed.chain
 }
 
 /// What CI did.

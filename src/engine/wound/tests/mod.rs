@@ -4,4 +4,6 @@ mod configurations;
 mod incision;
 mod kit;
 mod line;
+mod painting;
+mod plants;
 mod stress;
