@@ -13,7 +13,7 @@
 //! | [`engine`] | what an engine is; `wound` is one |
 //! | [`render`] | who carries out what can be asked of pixels: the CPU reference, the GPU |
 //! | [`replay`] | the session: events through stages, clock, digests, checks, journal, keyframes, seek |
-//! | [`verify`] | goldens: compare, bless |
+//! | [`verify`] | goldens and their pictures: compare, bless, shard and merge, pages |
 //! | [`measure`] | time against error, stability, scaling, the thesis's tables |
 //! | [`cli`] | the command line |
 //!

@@ -7,6 +7,7 @@ use std::str::FromStr;
 use clap::{Parser, Subcommand, ValueEnum, ValueHint};
 
 use crate::replay::Plant;
+use crate::verify::Shard;
 
 const AFTER: &str = "Exit status: 0 when all is verified, 1 when something diverged or an invariant broke, 2 for bad input or when \
 it could not run.\n\nREC is a recording (.lancet) or its script (.json). `--json -` writes to standard output. NO_COLOR is honoured.";
@@ -22,6 +23,7 @@ pub(super) struct Args {
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
     Verify(Verify),
+    Merge(Merge),
     Bless(Bless),
     Replay(Replay),
     Render(Render),
@@ -85,18 +87,49 @@ pub(super) struct Verify {
     pub(super) paths: Vec<PathBuf>,
     #[command(flatten)]
     pub(super) select: Select,
+    /// Only part K of N of the recordings; `lancet merge` makes one report of all parts' blobs
+    #[arg(long, value_name = "K/N")]
+    pub(super) shard: Option<Shard>,
     /// Leave out what comes after the first recording that fails
-    #[arg(long)]
+    #[arg(long, conflicts_with = "shard")]
     pub(super) fail_fast: bool,
+    #[command(flatten)]
+    pub(super) pixels: Pixels,
     /// Digest and check the whole state after every event
     #[arg(long)]
     pub(super) paranoid: bool,
     /// Plant a defect, to see that it is found: EVENT.STAGE:BUFFER:ELEMENT:ULPS, such as 4.MC:nodes:120:1
     #[arg(long, value_name = "SPEC")]
     pub(super) plant: Option<Plant>,
+    #[command(flatten)]
+    pub(super) to: Reports,
+    /// Write the report with all that its page shows, for `lancet merge`
+    #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
+    pub(super) blob: Option<Target>,
+}
+
+/// Where the report of a verification goes, beside the table.
+#[derive(Debug, clap::Args)]
+pub(super) struct Reports {
     /// Write the report as JSON
     #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
     pub(super) json: Option<Target>,
+    /// Write the report as one page with all pictures, DIR/index.html
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub(super) html: Option<PathBuf>,
+    /// Write the report as JUnit XML
+    #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
+    pub(super) junit: Option<Target>,
+}
+
+/// Make one report of the shards of several machines
+#[derive(Debug, clap::Args)]
+pub(super) struct Merge {
+    /// What `verify --shard K/N --blob` wrote, each shard once
+    #[arg(value_name = "BLOB", required = true, value_hint = ValueHint::FilePath)]
+    pub(super) blobs: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(super) to: Reports,
 }
 
 /// Which recordings, and how many at a time.
@@ -118,9 +151,15 @@ pub(super) struct Bless {
     pub(super) paths: Vec<PathBuf>,
     #[command(flatten)]
     pub(super) select: Select,
-    /// Why the runs are right as they are; it is written into the goldens
+    /// Why the runs, or the gates, are right as they are; it is written down with them
     #[arg(long, value_name = "TEXT")]
     pub(super) reason: String,
+    /// Measure how far the adapter in use is from the goldens, and write down its gates instead
+    #[arg(long)]
+    pub(super) gates: bool,
+    /// Who renders: goldens are blessed from the reference alone, gates are those of a GPU
+    #[arg(long, value_enum, value_name = "WHO")]
+    pub(super) renderer: Option<Renderer>,
     /// Say what would change, and write nothing
     #[arg(long)]
     pub(super) dry_run: bool,

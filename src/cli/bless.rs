@@ -4,20 +4,28 @@ use std::io::{self, Write};
 
 use anstyle::{AnsiColor, Style};
 
-use super::args::Bless;
+use super::args::{Bless, Renderer};
 use super::console::Channel;
 use super::table::{Cell, TextTable};
 use super::verify::{Line, jobs, status};
-use super::{Console, Done};
-use crate::verify::{self, BlessOptions, BlessReport, Blessed, Change};
+use super::{Console, Done, pixels};
+use crate::verify::{self, BlessOptions, BlessReport, Blessed, Change, GaugeReport};
 
 pub(super) fn run(typed: &Bless, console: &mut Console<'_>) -> Done {
+    let usual = if typed.gates { Renderer::Gpu } else { Renderer::Reference };
+    let studio = pixels::studio(typed.renderer.unwrap_or(usual), console)?;
     let options = BlessOptions {
         reason: typed.reason.clone(),
         dry_run: typed.dry_run,
         filter: typed.select.filter.clone(),
         jobs: jobs(typed.select.jobs),
+        studio: Some(studio.into()),
     };
+    if typed.gates {
+        let report = verify::gauge(&typed.paths, &options, &Line::on(&mut console.err));
+        show_gates(&report, typed.dry_run, &mut console.out)?;
+        return Ok(status(report.exit_code()));
+    }
     let report = verify::bless(&typed.paths, &options, &Line::on(&mut console.err));
     show(&report, typed.dry_run, &mut console.out)?;
     Ok(status(report.exit_code()))
@@ -35,6 +43,21 @@ fn show(report: &BlessReport, dry_run: bool, to: &mut Channel<'_>) -> io::Result
     let written = others.iter().filter(|r| r.change != Change::Refused).count();
     let verb = if dry_run { "would be written" } else { "written" };
     writeln!(to, "{written} goldens {verb}, {} as they were, {} refused", same.len(), others.len() - written)
+}
+
+fn show_gates(report: &GaugeReport, dry_run: bool, to: &mut Channel<'_>) -> io::Result<()> {
+    let GaugeReport { adapter, file, images, before, measured, errors } = report;
+    errors.iter().try_for_each(|problem| writeln!(to, "{} {problem}", to.bad("problem:")))?;
+    if *images > 0 {
+        let before = before.map_or("nothing".into(), |before| before.to_string());
+        writeln!(to, "{adapter}, {images} pictures: {measured}; before: {before}")?;
+    }
+    let verb = match (errors.is_empty(), dry_run) {
+        (false, _) => "not written",
+        (true, true) => "would be written",
+        (true, false) => "written",
+    };
+    writeln!(to, "gates {verb}: {file}")
 }
 
 fn row(blessed: &Blessed) -> [Cell; 4] {

@@ -18,6 +18,7 @@ mod info;
 mod json;
 mod man;
 mod measure;
+mod merge;
 mod pack;
 mod pixels;
 mod place;
@@ -77,6 +78,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, console: &mut Console<
 fn dispatch(command: Command, console: &mut Console<'_>) -> Done {
     match command {
         Command::Verify(typed) => verify::run(&typed, console),
+        Command::Merge(typed) => merge::run(&typed, console),
         Command::Bless(typed) => bless::run(&typed, console),
         Command::Replay(typed) => replay::run(&typed, console),
         Command::Render(typed) => render::run(&typed, console),

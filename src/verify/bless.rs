@@ -1,9 +1,10 @@
 //! Writing goldens: the only place that does.
 //!
 //! Refused without a reason, and for a run with a broken invariant: a golden says what is right. What is as it was is not written
-//! again, so that its reason stays.
+//! again, so that its reason stays. Pictures are blessed from the CPU reference alone, since it gives the same ones everywhere.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -14,10 +15,11 @@ use super::one::{Failure, Open, open_file, run};
 use super::suite::{find, in_parallel};
 use super::{Divergence, Progress, facts, home};
 use crate::assets;
+use crate::canvas::{Kind, Studio};
 use crate::replay::Options;
 
 /// How goldens are blessed.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Default)]
 pub struct BlessOptions {
     /// Why the runs are right as they are; written into the goldens.
     pub reason: String,
@@ -27,6 +29,8 @@ pub struct BlessOptions {
     pub filter: Option<String>,
     /// How many at a time; 0 is 1.
     pub jobs: usize,
+    /// Who renders the checkpoints' pictures. Only runs whose goldens have none can do without.
+    pub studio: Option<Arc<dyn Studio>>,
 }
 
 /// What became of a recording's goldens.
@@ -92,9 +96,8 @@ pub(super) fn bless_with(
     progress: &dyn Progress,
     open: &Open<'_>,
 ) -> BlessReport {
-    if facts::one_line(&options.reason).is_empty() {
-        let errors = vec!["a golden needs a reason for blessing it".into()];
-        return BlessReport { recordings: Vec::new(), orphans: Vec::new(), errors };
+    if let Some(error) = objection(options) {
+        return BlessReport { recordings: Vec::new(), orphans: Vec::new(), errors: vec![error] };
     }
     let found = find(paths, options.filter.as_deref());
     let recordings =
@@ -102,8 +105,18 @@ pub(super) fn bless_with(
     BlessReport { recordings, orphans: found.orphans, errors: found.errors }
 }
 
+/// Why nothing at all can be blessed.
+fn objection(options: &BlessOptions) -> Option<String> {
+    let adapter = options.studio.as_ref().map(|studio| studio.adapter());
+    if facts::one_line(&options.reason).is_empty() {
+        return Some("a golden needs a reason for blessing it".into());
+    }
+    let other = adapter.filter(|adapter| adapter.kind != Kind::Reference)?;
+    Some(format!("pictures are blessed from the CPU reference alone, and not from {other}"))
+}
+
 fn bless_one(path: &Path, options: &BlessOptions, open: &Open<'_>) -> Blessed {
-    let found = match run(path, &Options::default(), open) {
+    let found = match run(path, &Options::default(), options.studio.as_deref(), open) {
         Ok(found) => found,
         Err(Failure::BadInput(why) | Failure::Panic(why)) => return refused(path, why),
     };
@@ -111,6 +124,9 @@ fn bless_one(path: &Path, options: &BlessOptions, open: &Open<'_>) -> Blessed {
         return refused(path, format!("{} broke: {}", finding.name(), finding.check.detail));
     }
     let stored = Stored::read(&home::goldens(path), &found);
+    if let (None, Some(drawn)) = (&found.adapter, stored.drawn.first()) {
+        return refused(path, format!("checkpoint {drawn} has a picture, and nobody was asked to render"));
+    }
     let blessed = compared(path, &found, stored);
     if blessed.change == Change::Same || options.dry_run {
         return blessed;
@@ -154,7 +170,7 @@ fn compared(path: &Path, found: &Found, stored: Stored) -> Blessed {
 
 fn write(path: &Path, found: &Found, reason: &str) -> Result<(), String> {
     let folder = home::goldens(path);
-    let files = found.files(reason).into_iter();
+    let files = found.files(reason)?.into_iter();
     files
         .map(|(name, bytes)| assets::write_file(&folder.join(name), &bytes))
         .try_for_each(|written| written.map_err(|e| e.to_string()))

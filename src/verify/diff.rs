@@ -38,7 +38,7 @@ impl Diff {
 
 /// Compares two runs; the first is what the second is expected to be.
 pub fn diff(expected: Side, found: Side) -> Diff {
-    let [expected, found] = [expected, found].map(|side| Found { run: side.run, deltas: side.deltas });
+    let [expected, found] = [expected, found].map(|side| Found::new(side.run, side.deltas));
     let values = Values::file(&expected.deltas, &expected.run.totals.digest);
     let checkpoints = expected.checkpoints().into_iter().map(|(name, (_, facts))| (name.to_owned(), facts));
     let stored = Stored {

@@ -17,13 +17,22 @@
 //!
 //! A fact is a place, a name and a value. Digests stand below, so that a change of the text reads from what it means to what it is
 //! made of. The number of facts at the end tells a text that was cut off.
+//!
+//! A checkpoint's text tells of its frame too: size and digest are facts (`frame width = 640`, `frame digest image = 3f…`); who rendered the picture that
+//! was blessed (`renderer`, `adapter`, `shaders`) is, like the reason, there to be read, and is not compared.
 
 use std::fmt;
 
+use crate::canvas::image::Image;
+use crate::canvas::{Adapter, Kind as Renderer};
 use crate::report::{Counter, EventReport, Outcome, RunReport};
 
 /// Version of the text.
 const HEAD: &str = "lancet golden 1";
+/// Lines that are there to be read, and are no facts.
+const REMARKS: [&str; 4] = ["reason = ", "renderer = ", "adapter = ", "shaders = "];
+/// The name of a frame's digest.
+const IMAGE: &str = "image";
 
 /// Where in a run, in its order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -34,6 +43,8 @@ pub(super) enum Place {
     Event(usize),
     /// The whole state at a checkpoint.
     State,
+    /// A checkpoint's frame.
+    Frame,
     /// The whole state after the last event.
     End,
     /// The sums.
@@ -46,6 +57,7 @@ impl fmt::Display for Place {
             Self::Scene => write!(f, "scene"),
             Self::Event(index) => write!(f, "event {index}"),
             Self::State => write!(f, "state"),
+            Self::Frame => write!(f, "frame"),
             Self::End => write!(f, "end"),
             Self::Total => write!(f, "total"),
         }
@@ -92,6 +104,11 @@ impl Fact {
         }
     }
 
+    /// Whether it is the digest of a checkpoint's picture.
+    pub(super) fn is_image_digest(&self) -> bool {
+        (self.place, self.kind, self.name.as_str()) == (Place::Frame, Kind::Digest, IMAGE)
+    }
+
     fn parse(line: &str) -> Option<Self> {
         let (key, value) = line.split_once(" = ")?;
         let words: Vec<&str> = key.split(' ').collect();
@@ -99,6 +116,7 @@ impl Fact {
             ["event", index, rest @ ..] => (Place::Event(index.parse().ok()?), rest),
             ["scene", rest @ ..] => (Place::Scene, rest),
             ["state", rest @ ..] => (Place::State, rest),
+            ["frame", rest @ ..] => (Place::Frame, rest),
             ["end", rest @ ..] => (Place::End, rest),
             ["total", rest @ ..] => (Place::Total, rest),
             _ => return None,
@@ -144,6 +162,15 @@ pub(super) fn of_checkpoint(event: &EventReport) -> Vec<Fact> {
     counts(Place::State, &event.counts).chain(digests(Place::State, &event.state_buffers)).collect()
 }
 
+/// The facts of a checkpoint's frame; with its digest, where the renderer is exact.
+pub(super) fn of_frame(image: &Image, exact: bool) -> Vec<Fact> {
+    let [width, height] = image.size;
+    let sides = [("width", width), ("height", height)];
+    let sides = sides.map(|(name, side)| Fact::new(Place::Frame, Kind::Count, name, side));
+    let digest = exact.then(|| Fact::new(Place::Frame, Kind::Digest, IMAGE, image.digest()));
+    sides.into_iter().chain(digest).collect()
+}
+
 fn of_event(event: &EventReport, facts: &mut Vec<Fact>) {
     let place = Place::Event(event.index);
     facts.push(Fact::new(place, Kind::Outcome, "", outcome(event)));
@@ -184,14 +211,25 @@ fn digests(place: Place, digests: &ByName<String>) -> impl Iterator<Item = Fact>
     digests.iter().map(move |(name, digest)| Fact::new(place, Kind::Digest, name, digest))
 }
 
-/// The text of some facts, with the reason for blessing them.
-pub(super) fn write(reason: &str, facts: &[Fact]) -> String {
+/// What a text says besides facts: why it was blessed, and who rendered the picture, where there is one.
+pub(super) fn remarks(reason: &str, adapter: Option<&Adapter>) -> String {
+    let mut lines = format!("reason = {}\n", one_line(reason));
+    if let Some(adapter) = adapter {
+        let renderer = if adapter.kind == Renderer::Reference { "reference" } else { "gpu" };
+        let shaders = if adapter.shaders.is_empty() { "none" } else { &adapter.shaders };
+        let name = one_line(&adapter.to_string());
+        lines += &format!("renderer = {renderer}\nadapter = {name}\nshaders = {shaders}\n");
+    }
+    lines
+}
+
+/// The text of some facts, below some remarks.
+pub(super) fn write(remarks: &str, facts: &[Fact]) -> String {
     let lines = |digests: bool| -> String {
         let of_kind = facts.iter().filter(|f| (f.kind == Kind::Digest) == digests);
         of_kind.map(|f| format!("{} = {}\n", f.key(), f.value)).collect()
     };
-    let reason = one_line(reason);
-    format!("{HEAD}\nreason = {reason}\n{}\n{}\nfacts = {}\n", lines(false), lines(true), facts.len())
+    format!("{HEAD}\n{remarks}{}\n{}\nfacts = {}\n", lines(false), lines(true), facts.len())
 }
 
 /// The facts of a text. An error says what is wrong with it, and where.
@@ -202,7 +240,7 @@ pub(super) fn parse(text: &[u8]) -> Result<Vec<Fact>, String> {
         return Err(format!("line 1: it does not begin with `{HEAD}`"));
     }
     let mut facts = Vec::new();
-    for (at, line) in lines.filter(|(_, line)| !line.starts_with("reason = ")) {
+    for (at, line) in lines.filter(|(_, line)| !REMARKS.iter().any(|remark| line.starts_with(remark))) {
         if let Some(count) = line.strip_prefix("facts = ") {
             return if count == facts.len().to_string() {
                 Ok(facts)
@@ -242,7 +280,7 @@ mod tests {
 
     #[test]
     fn a_golden_reads_from_what_it_means_to_what_it_is_made_of() {
-        let text = write("a first\n\tblessing", &of_run(&sample()));
+        let text = write(&remarks("a first\n\tblessing", None), &of_run(&sample()));
         let expected = "lancet golden 1\n\
             reason = a first blessing\n\
             scene faces = 12\n\
@@ -267,7 +305,7 @@ mod tests {
     #[test]
     fn a_text_holds_all_facts() {
         let mut facts = of_run(&sample());
-        let mut parsed = parse(write("why", &facts).as_bytes()).expect("a golden");
+        let mut parsed = parse(write(&remarks("why", None), &facts).as_bytes()).expect("a golden");
         let key = |f: &Fact| (f.place, f.kind, f.name.clone());
         facts.sort_by_key(key);
         parsed.sort_by_key(key);
@@ -276,7 +314,7 @@ mod tests {
 
     #[test]
     fn a_damaged_text_is_named() {
-        let text = write("why", &of_run(&sample()));
+        let text = write(&remarks("why", None), &of_run(&sample()));
         for end in 0..text.len() - 1 {
             assert!(parse(&text.as_bytes()[..end]).is_err(), "cut off at byte {end}");
         }

@@ -5,17 +5,29 @@ use std::path::{Path, PathBuf};
 
 use super::facts::{self, Fact, Kind, Place};
 use super::home;
+use super::picture::Picture;
 use super::values::Values;
 use crate::assets;
+use crate::canvas::{Adapter, Kind as Renderer};
+use crate::replay::CheckpointFrame;
 use crate::report::{EventDelta, RunReport};
 
 /// A run as goldens would have it.
 pub(super) struct Found {
     pub(super) run: RunReport,
     pub(super) deltas: Vec<EventDelta>,
+    /// The checkpoints' frames.
+    pub(super) frames: Vec<CheckpointFrame>,
+    /// Who rendered them; none where nobody was asked to.
+    pub(super) adapter: Option<Adapter>,
 }
 
 impl Found {
+    /// A run without pictures.
+    pub(super) fn new(run: RunReport, deltas: Vec<EventDelta>) -> Self {
+        Self { run, deltas, frames: Vec::new(), adapter: None }
+    }
+
     /// The facts of the run.
     pub(super) fn facts(&self) -> Vec<Fact> {
         facts::of_run(&self.run)
@@ -24,24 +36,50 @@ impl Found {
     /// The facts of each checkpoint, by name, with its event.
     pub(super) fn checkpoints(&self) -> BTreeMap<&str, (usize, Vec<Fact>)> {
         let named = self.run.events.iter().filter_map(|e| Some((e.checkpoint.as_deref()?, e)));
-        named.map(|(name, event)| (name, (event.index, facts::of_checkpoint(event)))).collect()
+        named
+            .map(|(name, event)| {
+                let frame = self.frame(name).map(|f| facts::of_frame(&f.frame.image, self.is_exact()));
+                let facts = [facts::of_checkpoint(event), frame.unwrap_or_default()].concat();
+                (name, (event.index, facts))
+            })
+            .collect()
+    }
+
+    /// A checkpoint's frame.
+    pub(super) fn frame(&self, checkpoint: &str) -> Option<&CheckpointFrame> {
+        self.frames.iter().find(|frame| frame.name == checkpoint)
+    }
+
+    /// Whether its pictures have to be the goldens, byte for byte.
+    fn is_exact(&self) -> bool {
+        self.adapter.as_ref().is_some_and(|adapter| adapter.kind == Renderer::Reference)
     }
 
     /// The names of its files.
     pub(super) fn file_names(&self) -> Vec<String> {
         let texts = self.checkpoints().into_keys().map(home::checkpoint_text);
-        [home::RUN_TEXT.into(), home::RUN_VALUES.into()].into_iter().chain(texts).collect()
+        let pictures = self.frames.iter().map(|frame| home::checkpoint_picture(&frame.name));
+        let run = [home::RUN_TEXT.into(), home::RUN_VALUES.into()];
+        run.into_iter().chain(texts).chain(pictures).collect()
     }
 
-    /// Its files: name and content.
-    pub(super) fn files(&self, reason: &str) -> Vec<(String, Vec<u8>)> {
+    /// Its files: name and content. An error says which of them cannot be.
+    pub(super) fn files(&self, reason: &str) -> Result<Vec<(String, Vec<u8>)>, String> {
         let values = Values::file(&self.deltas, &self.run.totals.digest);
-        let texts = self.checkpoints().into_iter();
-        let texts =
-            texts.map(|(name, (_, facts))| (home::checkpoint_text(name), facts::write(reason, &facts)));
-        let run = (home::RUN_TEXT.to_string(), facts::write(reason, &self.facts()));
-        let texts = std::iter::once(run).chain(texts).map(|(name, text)| (name, text.into_bytes()));
-        texts.chain([(home::RUN_VALUES.to_string(), values)]).collect()
+        let run = facts::write(&facts::remarks(reason, None), &self.facts());
+        let mut files =
+            vec![(home::RUN_TEXT.to_owned(), run.into_bytes()), (home::RUN_VALUES.to_owned(), values)];
+        for (name, (_, facts)) in self.checkpoints() {
+            let frame = self.frame(name);
+            let remarks = facts::remarks(reason, self.adapter.as_ref().filter(|_| frame.is_some()));
+            files.push((home::checkpoint_text(name), facts::write(&remarks, &facts).into_bytes()));
+            if let Some(frame) = frame {
+                let file = home::checkpoint_picture(name);
+                let picture = Picture::file(&frame.frame.image).map_err(|why| format!("{file}: {why}"))?;
+                files.push((file, picture));
+            }
+        }
+        Ok(files)
     }
 }
 
@@ -52,6 +90,10 @@ pub(super) struct Stored {
     pub(super) values: Option<Values>,
     /// By name.
     pub(super) checkpoints: BTreeMap<String, Vec<Fact>>,
+    /// By the checkpoint's name; none is there that is not of the frame's size.
+    pub(super) pictures: BTreeMap<String, Picture>,
+    /// The checkpoints whose text tells of a frame.
+    pub(super) drawn: Vec<String>,
     /// What is missing or damaged.
     pub(super) problems: Vec<String>,
     /// What the run does not ask for.
@@ -64,13 +106,39 @@ impl Stored {
         let mut stored = Self::default();
         stored.run = stored.facts(&folder.join(home::RUN_TEXT));
         for name in found.checkpoints().into_keys() {
-            if let Some(facts) = stored.facts(&folder.join(home::checkpoint_text(name))) {
-                stored.checkpoints.insert(name.into(), facts);
-            }
+            stored.read_checkpoint(folder, name, found);
         }
         stored.values = stored.values(&folder.join(home::RUN_VALUES));
-        stored.find_orphans(folder, &found.file_names());
+        stored.find_orphans(folder, &stored.known(found));
         stored
+    }
+
+    fn read_checkpoint(&mut self, folder: &Path, name: &str, found: &Found) {
+        let facts = self.facts(&folder.join(home::checkpoint_text(name)));
+        if let Some(frame) = found.frame(name) {
+            let digest = facts.iter().flatten().find(|fact| fact.is_image_digest());
+            let file = folder.join(home::checkpoint_picture(name));
+            let read = read(&file).and_then(|png| {
+                let picture = Picture::read(png, digest.map(|fact| fact.value.as_str()), &frame.frame.image);
+                picture.map_err(|why| format!("{}: {why}", file.display()))
+            });
+            self.keep(read).map(|picture| self.pictures.insert(name.into(), picture));
+        }
+        let Some(mut facts) = facts else { return };
+        if facts.iter().any(|fact| fact.place == Place::Frame) {
+            self.drawn.push(name.into());
+        }
+        // What nobody rendered cannot be compared, and what comes from a device goes by its gates.
+        let rendered = found.adapter.is_some();
+        facts.retain(|fact| fact.place != Place::Frame || rendered && (found.is_exact() || !fact.is_image_digest()));
+        self.checkpoints.insert(name.into(), facts);
+    }
+
+    /// The names of the files that belong to a run; without a renderer its pictures are left alone.
+    fn known(&self, found: &Found) -> Vec<String> {
+        let drawn = self.drawn.iter().filter(|_| found.adapter.is_none());
+        let pictures = drawn.map(|name| home::checkpoint_picture(name));
+        found.file_names().into_iter().chain(pictures).collect()
     }
 
     /// Whether nothing at all is stored.
@@ -125,6 +193,8 @@ pub(super) fn orphan(file: &Path) -> String {
 pub(super) fn orphaned_folders(folder: &Path, recordings: &[PathBuf]) -> Vec<PathBuf> {
     let Some(goldens) = home::goldens_of_folder(folder) else { return Vec::new() };
     let homes: Vec<PathBuf> = recordings.iter().map(|r| home::goldens(r)).collect();
+    let gates = home::gates(folder);
     let files = assets::list_files(&goldens).unwrap_or_default();
-    files.into_iter().filter(|f| f.parent().is_none_or(|p| !homes.iter().any(|home| home == p))).collect()
+    let others = files.into_iter().filter(|f| f.parent().is_none_or(|p| !homes.iter().any(|home| home == p)));
+    others.filter(|file| *file != gates).collect()
 }

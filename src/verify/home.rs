@@ -2,7 +2,7 @@
 //!
 //! `X/recordings/wound/a.lancet` is called `wound/a`, and its goldens lie in `X/golden/wound/a/`; a recording outside of any
 //! `recordings` folder goes by its path, and has them beside it in `FILE.golden/`. The run's two files begin with an underscore, which
-//! no checkpoint's name does.
+//! no checkpoint's name does. `X/golden/gates.json` belongs to them all.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -10,12 +10,28 @@ use std::path::{Component, Path, PathBuf};
 pub(super) const RUN_TEXT: &str = "_run.txt";
 /// The values of a run.
 pub(super) const RUN_VALUES: &str = "_run.bin";
+/// What adapters may differ by.
+const GATES: &str = "gates.json";
 /// The ending of recordings.
 pub(super) const RECORDING: &str = "lancet";
 
 /// The file of a checkpoint's text.
 pub(super) fn checkpoint_text(name: &str) -> String {
     format!("{name}.txt")
+}
+
+/// The file of a checkpoint's picture.
+pub(super) fn checkpoint_picture(name: &str) -> String {
+    format!("{name}.png")
+}
+
+/// The file of the gates that hold for a recording: beside the goldens of all recordings, or else beside the recording.
+pub(super) fn gates(recording: &Path) -> PathBuf {
+    let folder = match split(recording) {
+        Some((above, _)) => above.join("golden"),
+        None => recording.parent().unwrap_or(Path::new("")).into(),
+    };
+    folder.join(GATES)
 }
 
 /// The folder above the innermost `recordings`, and the path under it.
@@ -63,6 +79,7 @@ mod tests {
         assert_eq!(name(recording), "wound/thesis-large-VI");
         assert_eq!(goldens(recording), Path::new("/x/golden/wound/thesis-large-VI"));
         assert_eq!(goldens_of_folder(Path::new("/x/recordings")), Some("/x/golden".into()));
+        assert_eq!(gates(recording), Path::new("/x/golden/gates.json"));
         assert_eq!(goldens(Path::new("recordings/a.lancet")), Path::new("golden/a"));
         assert_eq!(goldens_of_folder(Path::new("/x/recordings/wound")), Some("/x/golden/wound".into()));
         let nested = Path::new("/x/recordings/old/recordings/a.lancet");
@@ -77,5 +94,6 @@ mod tests {
             ("/tmp/a.lancet".into(), "/tmp/a.lancet.golden".into())
         );
         assert_eq!(goldens_of_folder(Path::new("/tmp")), None);
+        assert_eq!(gates(recording), Path::new("/tmp/gates.json"));
     }
 }

@@ -5,25 +5,53 @@
 //! element. Verifying replays the recording and compares fact by fact; the first that differs, in the order of the run, is
 //! named. A fact that the golden does not know is new; it hides nothing about those that it knows.
 //!
-//! A missing, damaged or orphaned golden is a failure, never a reason to write one: only [`bless`] writes.
+//! **Pictures.** A checkpoint's golden picture (`picture`) is a PNG beside its text, blessed from the CPU reference. The reference has to give it
+//! byte for byte; a device has to come within the gates of its adapter (`image`), and every golden proves that the gates would catch a
+//! defect in it. Who renders is given by the front end.
+//!
+//! A missing, damaged, mis-sized or orphaned golden is a failure, never a reason to write one: only [`bless()`] and [`gauge()`] write.
+//!
+//! **Reports.** [`VerifyReport`] is plain data; as a page ([`html()`]), as [`junit()`] XML, and as a [`Blob`] that holds all that the page shows, so that
+//! [`merge()`] can make one report of the shards of several machines.
 
+mod blob;
 mod bless;
 mod compare;
+mod detail;
 mod diff;
 mod facts;
+mod gauge;
 mod golden;
 mod home;
+mod html;
+mod image;
+mod junit;
+mod merge;
 mod one;
+mod picture;
 mod report;
+mod shard;
+mod skips;
 mod suite;
 mod values;
 
 #[cfg(test)]
 mod tests;
 
+pub use blob::Blob;
 pub use bless::{BlessOptions, BlessReport, Blessed, Change, bless};
 pub use compare::Divergence;
+pub use detail::{Detail, EventDetail, PictureDetail, StageDetail};
 pub use diff::{Diff, Side, diff};
+pub use gauge::{GaugeReport, gauge};
+pub use html::html;
+pub use image::{
+    Defect, Distance, Gate, GatesError, GatesFile, ImageReport, ImageVerdict, Known, Metric, Planted, Proof,
+};
+pub use junit::junit;
+pub use merge::{MergeError, merge};
 pub use one::failure;
 pub use report::{RecordingReport, Verdict, VerifyReport};
-pub use suite::{Progress, VerifyOptions, verify};
+pub use shard::{Shard, ShardReport};
+pub use skips::Skips;
+pub use suite::{Progress, VerifyOptions, verify, verify_to_blob};

@@ -6,17 +6,25 @@ use std::path::Path;
 use std::time::Instant;
 
 use super::compare::{Comparison, compare};
+use super::detail::Detail;
 use super::golden::{Found, Stored};
+use super::image::{ImageReport, Rules};
 use super::report::{RecordingReport, Verdict};
-use super::{VerifyOptions, home};
+use super::{VerifyOptions, home, skips};
+use crate::canvas::Studio;
 use crate::replay::{self, Options, Planting, Replay};
 
-/// Opens a recording for replay. An error says what is wrong with which file.
-pub(super) type Open<'a> = dyn Fn(&Path, Options) -> Result<Box<dyn Replay>, String> + Sync + 'a;
+/// Opens a recording for replay, with whoever renders. An error says what is wrong with which file.
+pub(super) type Open<'a> =
+    dyn Fn(&Path, Options, Option<&dyn Studio>) -> Result<Box<dyn Replay>, String> + Sync + 'a;
 
 /// Opens a recording's file.
-pub(super) fn open_file(path: &Path, options: Options) -> Result<Box<dyn Replay>, String> {
-    replay::open_file(path, options, None).map_err(|error| error.to_string())
+pub(super) fn open_file(
+    path: &Path,
+    options: Options,
+    studio: Option<&dyn Studio>,
+) -> Result<Box<dyn Replay>, String> {
+    replay::open_file(path, options, studio).map_err(|error| error.to_string())
 }
 
 /// Why there is no run to look at.
@@ -28,18 +36,28 @@ pub(super) enum Failure {
 }
 
 /// Replays a recording to its end.
-pub(super) fn run(path: &Path, options: &Options, open: &Open<'_>) -> Result<Found, Failure> {
+pub(super) fn run(
+    path: &Path,
+    options: &Options,
+    studio: Option<&dyn Studio>,
+    open: &Open<'_>,
+) -> Result<Found, Failure> {
     let planted = options.plant.is_some();
     let options = Options { keep_deltas: true, budget_bytes: 0, ..options.clone() };
     let replayed = catch_unwind(AssertUnwindSafe(|| {
-        let mut replay = open(path, options)?;
+        let mut replay = open(path, options, studio)?;
         replay.finish();
+        if let Some(error) = replay.failure() {
+            return Err(format!("it cannot be rendered: {error}"));
+        }
         match replay.planting() {
             Planting::Failed(why) => return Err(format!("nothing to plant: {why}")),
             Planting::Open if planted => return Err("nothing to plant: the place was not reached".into()),
             _ => {}
         }
-        Ok(Found { run: replay.run_report(&home::name(path)), deltas: replay.take_deltas() })
+        let found = Found::new(replay.run_report(&home::name(path)), replay.take_deltas());
+        let adapter = studio.map(|studio| studio.adapter().clone());
+        Ok(Found { frames: replay.take_frames(), adapter, ..found })
     }));
     match replayed {
         Ok(found) => found.map_err(Failure::BadInput),
@@ -53,25 +71,35 @@ fn panic_text(panic: &(dyn Any + Send)) -> String {
     format!("panicked: {}", text.unwrap_or("without a message"))
 }
 
-/// Replays a recording and compares it with its goldens.
-pub(super) fn verify_one(path: &Path, options: &VerifyOptions, open: &Open<'_>) -> RecordingReport {
+/// Replays a recording and compares it with its goldens. With details, what a page shows of it comes along.
+pub(super) fn verify_one(
+    path: &Path,
+    options: &VerifyOptions,
+    rules: Option<&Rules>,
+    open: &Open<'_>,
+) -> (RecordingReport, Option<Detail>) {
     let clock = Instant::now();
     let mut report = RecordingReport::new(home::name(path));
-    match run(path, &options.replay, open) {
+    let mut detail = None;
+    match run(path, &options.replay, options.studio.as_deref(), open) {
         Ok(found) => {
             let stored = Stored::read(&home::goldens(path), &found);
-            describe(
-                &mut report,
-                &found,
-                compare(&found, &stored),
-                [stored.problems, stored.orphans].concat(),
-            );
+            report.images = judge(&found, &stored, rules);
+            detail = options.details.then(|| Detail::new(&found, &stored, &report.images));
+            let problems = [stored.problems.as_slice(), &stored.orphans].concat();
+            describe(&mut report, &found, compare(&found, &stored), problems);
         }
         Err(Failure::BadInput(why)) => report.error = Some(why),
         Err(Failure::Panic(why)) => (report.verdict, report.error) = (Verdict::Failed, Some(why)),
     }
     report.ms = clock.elapsed().as_secs_f64() * 1e3;
-    report
+    (report, detail)
+}
+
+fn judge(found: &Found, stored: &Stored, rules: Option<&Rules>) -> Vec<ImageReport> {
+    let golden = |name: &String| stored.pictures.get(name).map(|picture| &picture.image);
+    let rules = rules.iter();
+    rules.flat_map(|rules| found.frames.iter().map(|f| rules.judge(f, golden(&f.name)))).collect()
 }
 
 fn describe(report: &mut RecordingReport, found: &Found, comparison: Comparison, problems: Vec<String>) {
@@ -80,11 +108,13 @@ fn describe(report: &mut RecordingReport, found: &Found, comparison: Comparison,
     (report.applied, report.rejected) = (totals.applied, totals.rejected);
     (report.checks, report.digest) = (found.run.checks(), totals.digest.clone());
     report.findings = found.run.findings().collect();
+    report.skips = skips::of_run(&found.run.events);
     (report.divergence, report.differing) = (comparison.divergence, comparison.differing);
     (report.new, report.goldens) = (comparison.new, problems);
     let clean = report.findings.is_empty() && report.divergence.is_none();
     let known = report.new.is_empty() && report.goldens.is_empty();
-    report.verdict = if clean && known { Verdict::Verified } else { Verdict::Failed };
+    let pictured = report.images.iter().all(ImageReport::is_fine);
+    report.verdict = if clean && known && pictured { Verdict::Verified } else { Verdict::Failed };
 }
 
 /// Whether a replay fails, and how: the name of its first broken invariant, such as `MC/manifold`, or `panic`. It goes no

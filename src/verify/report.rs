@@ -4,7 +4,11 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Divergence;
-use crate::report::Finding;
+use super::image::ImageReport;
+use super::shard::ShardReport;
+use super::skips::{self, Skips};
+use crate::canvas::Adapter;
+use crate::report::{Finding, SCHEMA};
 
 /// What became of a recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -41,6 +45,12 @@ pub struct RecordingReport {
     pub divergence: Option<Divergence>,
     /// How many facts differ from its goldens.
     pub differing: usize,
+    /// The checkpoints' pictures.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub images: Vec<ImageReport>,
+    /// What was skipped of rendering them, by pass.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub skips: Vec<Skips>,
     /// What its goldens do not know, such as `digest GP.jobs`.
     pub new: Vec<String>,
     /// Which goldens are missing, damaged or orphaned.
@@ -67,6 +77,8 @@ impl RecordingReport {
             findings: Vec::new(),
             divergence: None,
             differing: 0,
+            images: Vec::new(),
+            skips: Vec::new(),
             new: Vec::new(),
             goldens: Vec::new(),
             error: None,
@@ -84,7 +96,8 @@ impl RecordingReport {
         });
         let divergence = self.divergence.as_ref().map(ToString::to_string);
         let new = (!self.new.is_empty()).then(|| format!("new: {}", self.new.join(", ")));
-        let lines = self.error.iter().cloned().chain(finding).chain(divergence).chain(new);
+        let images = self.images.iter().flat_map(ImageReport::problems);
+        let lines = self.error.iter().cloned().chain(finding).chain(divergence).chain(images).chain(new);
         lines.chain(self.goldens.iter().cloned()).collect()
     }
 }
@@ -94,8 +107,17 @@ impl RecordingReport {
 pub struct VerifyReport {
     /// Version of this layout.
     pub schema: u32,
+    /// Who rendered the pictures; none where nobody was asked to.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub adapter: Option<Adapter>,
+    /// Which part of the recordings this is, where it is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shard: Option<ShardReport>,
     /// The recordings, by path.
     pub recordings: Vec<RecordingReport>,
+    /// What was skipped of rendering all pictures, by pass.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub skips: Vec<Skips>,
     /// Goldens of recordings that are no more.
     pub orphans: Vec<String>,
     /// What could not be looked at.
@@ -107,6 +129,32 @@ pub struct VerifyReport {
 }
 
 impl VerifyReport {
+    /// A report of some recordings.
+    pub(super) fn new(adapter: Option<Adapter>, recordings: Vec<RecordingReport>) -> Self {
+        let skips = skips::sum(recordings.iter().flat_map(|recording| &recording.skips));
+        Self {
+            schema: SCHEMA,
+            adapter,
+            shard: None,
+            recordings,
+            skips,
+            orphans: Vec::new(),
+            errors: Vec::new(),
+            left_out: 0,
+            ms: 0.0,
+        }
+    }
+
+    /// The same with every time at zero: two reports of the same recordings are compared so.
+    #[must_use]
+    pub fn without_times(&self) -> Self {
+        let mut report = Self { ms: 0.0, ..self.clone() };
+        report.recordings.iter_mut().for_each(|recording| recording.ms = 0.0);
+        let of_recordings = report.recordings.iter_mut().flat_map(|recording| &mut recording.skips);
+        of_recordings.chain(&mut report.skips).for_each(|skips| skips.us = 0.0);
+        report
+    }
+
     /// 0 all verified, 1 something diverged or an invariant broke, 2 bad input or it could not run.
     pub fn exit_code(&self) -> u8 {
         let any = |verdict| self.recordings.iter().any(|r| r.verdict == verdict);

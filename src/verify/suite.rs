@@ -1,19 +1,24 @@
 //! Many recordings: found, replayed several at a time, and reported in the order of their paths.
 
+use std::collections::BTreeMap;
+use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
+use super::blob::Blob;
+use super::image::{GatesFile, Rules};
 use super::one::{Open, open_file, verify_one};
-use super::report::{RecordingReport, Verdict, VerifyReport};
+use super::report::{Verdict, VerifyReport};
+use super::shard::Shard;
 use super::{golden, home};
 use crate::assets;
+use crate::canvas::{Adapter, Studio};
 use crate::replay::Options;
-use crate::report::SCHEMA;
 
 /// How recordings are verified.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Default)]
 pub struct VerifyOptions {
     /// Only recordings with this in their name.
     pub filter: Option<String>,
@@ -23,6 +28,23 @@ pub struct VerifyOptions {
     pub fail_fast: bool,
     /// How they are replayed.
     pub replay: Options,
+    /// Who renders the checkpoints' pictures. Without anybody, pictures are not looked at.
+    pub studio: Option<Arc<dyn Studio>>,
+    /// Only this part of the recordings.
+    pub shard: Option<Shard>,
+    /// Keeps what a page shows of each recording.
+    pub details: bool,
+}
+
+impl fmt::Debug for VerifyOptions {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { filter, jobs, fail_fast, replay, studio, shard, details } = self;
+        let adapter = studio.as_ref().map(|studio| studio.adapter());
+        let mut text = f.debug_struct("VerifyOptions");
+        text.field("filter", filter).field("jobs", jobs).field("fail_fast", fail_fast);
+        text.field("replay", replay).field("adapter", &adapter).field("shard", shard);
+        text.field("details", details).finish()
+    }
 }
 
 /// Told how far a longer piece of work is; from any thread.
@@ -38,6 +60,11 @@ impl Progress for () {
 
 /// Replays recordings, and folders of them, and compares them with their goldens.
 pub fn verify(paths: &[PathBuf], options: &VerifyOptions, progress: &dyn Progress) -> VerifyReport {
+    verify_with(paths, options, progress, &open_file).report
+}
+
+/// The same, with what a page shows of them, if the options ask for details.
+pub fn verify_to_blob(paths: &[PathBuf], options: &VerifyOptions, progress: &dyn Progress) -> Blob {
     verify_with(paths, options, progress, &open_file)
 }
 
@@ -46,32 +73,36 @@ pub(super) fn verify_with(
     options: &VerifyOptions,
     progress: &dyn Progress,
     open: &Open<'_>,
-) -> VerifyReport {
+) -> Blob {
     let clock = Instant::now();
-    let found = find(paths, options.filter.as_deref());
+    let mut found = find(paths, options.filter.as_deref());
+    let shard = options.shard.map(|shard| shard.take(&mut found.recordings));
+    let adapter = options.studio.as_ref().map(|studio| studio.adapter());
+    let rules = adapter.map(|adapter| found.rules(adapter)).unwrap_or_default();
     // The first recording known to fail; what comes before it is finished, so that the report does not depend on the threads.
     let failed = AtomicUsize::new(usize::MAX);
     let job = |at: usize, path: &Path| {
         if at > failed.load(Ordering::Relaxed) {
             return None;
         }
-        let report = verify_one(path, options, open);
-        if options.fail_fast && report.verdict != Verdict::Verified {
+        let verified = verify_one(path, options, rules.get(&home::gates(path)), open);
+        if options.fail_fast && verified.0.verdict != Verdict::Verified {
             failed.fetch_min(at, Ordering::Relaxed);
         }
-        Some(report)
+        Some(verified)
     };
-    let reports = in_parallel(&found.recordings, options.jobs, progress, &job);
-    let mut recordings: Vec<RecordingReport> = reports.into_iter().flatten().collect();
-    recordings.truncate(failed.into_inner().saturating_add(1));
-    VerifyReport {
-        schema: SCHEMA,
+    let verified = in_parallel(&found.recordings, options.jobs, progress, &job);
+    let kept = verified.into_iter().flatten().take(failed.into_inner().saturating_add(1));
+    let (recordings, details): (Vec<_>, Vec<_>) = kept.unzip();
+    let report = VerifyReport {
+        shard,
         left_out: found.recordings.len() - recordings.len(),
-        recordings,
         orphans: found.orphans,
         errors: found.errors,
         ms: clock.elapsed().as_secs_f64() * 1e3,
-    }
+        ..VerifyReport::new(adapter.cloned(), recordings)
+    };
+    Blob::new(report, details.into_iter().flatten().collect())
 }
 
 /// The recordings that some paths stand for.
@@ -102,6 +133,22 @@ pub(super) fn find(paths: &[PathBuf], filter: Option<&str>) -> Recordings {
 }
 
 impl Recordings {
+    /// How pictures of an adapter are judged, by the file of gates that a recording goes by. Without a file no adapter is known; a damaged one is an
+    /// error, and counts as none.
+    pub(super) fn rules(&mut self, adapter: &Adapter) -> BTreeMap<PathBuf, Rules> {
+        let mut rules = BTreeMap::new();
+        for file in self.recordings.iter().map(|recording| home::gates(recording)) {
+            if !rules.contains_key(&file) {
+                let gates = read_gates(&file).unwrap_or_else(|why| {
+                    self.errors.push(why);
+                    GatesFile::default()
+                });
+                rules.insert(file, Rules::new(&gates, adapter));
+            }
+        }
+        rules
+    }
+
     fn add(&mut self, path: &Path) {
         if !assets::is_folder(path) {
             self.recordings.push(path.into());
@@ -120,6 +167,15 @@ impl Recordings {
             .extend(golden::orphaned_folders(path, &recordings).iter().map(|file| golden::orphan(file)));
         self.recordings.extend(recordings);
     }
+}
+
+/// Reads a file of gates; without one no adapter is known.
+pub(super) fn read_gates(file: &Path) -> Result<GatesFile, String> {
+    if !assets::is_file(file) {
+        return Ok(GatesFile::default());
+    }
+    let text = assets::read_file(file).map_err(|error| error.to_string())?;
+    GatesFile::parse(&text).map_err(|error| format!("{}: {error}", file.display()))
 }
 
 /// Does a job for each recording, some at a time. The results are in the order of the recordings.

@@ -2,10 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
+mod pictures;
+
 use super::bless::bless_with;
 use super::suite::verify_with;
 use super::*;
 use crate::assets::{self, CacheOptions, list_files, read_file, write_file};
+use crate::canvas::Studio;
 use crate::recording::{Script, to_bytes};
 use crate::replay::toy::{Toy, ToyEvent, ToyState};
 use crate::replay::{Options, Replay, Session};
@@ -14,7 +17,7 @@ use ToyEvent::{Add, Checkpoint, Click, Undo};
 /// A folder with recordings and their goldens.
 struct Suite(tempfile::TempDir);
 
-fn open(path: &Path, options: Options) -> Result<Box<dyn Replay>, String> {
+fn open(path: &Path, options: Options, _: Option<&dyn Studio>) -> Result<Box<dyn Replay>, String> {
     let bytes = read_file(path).map_err(|e| e.to_string())?;
     let events: Vec<ToyEvent> = serde_json::from_slice(&bytes).map_err(|e| e.to_string())?;
     assert!(!matches!(events.first(), Some(Add(0, 666.0))), "a bug of ours");
@@ -61,7 +64,7 @@ impl Suite {
     }
 
     fn verify_as(&self, options: &VerifyOptions) -> VerifyReport {
-        verify_with(&[self.at("recordings")], options, &(), &open)
+        verify_with(&[self.at("recordings")], options, &(), &open).report
     }
 }
 
@@ -303,7 +306,7 @@ fn a_filter_picks_by_name() {
         ("wound/a", 0)
     );
     assert_eq!(filtered("nothing-like-it").exit_code(), 2);
-    let nowhere = verify_with(&[suite.at("recordings/none")], &VerifyOptions::default(), &(), &open);
+    let nowhere = verify_with(&[suite.at("recordings/none")], &VerifyOptions::default(), &(), &open).report;
     assert_eq!(nowhere.exit_code(), 2);
 }
 
@@ -323,13 +326,18 @@ const SQUARE: &str = r#"{ "version": 1, "viewport": [100, 100], "seed": 3,
     "scene": { "inline": { "nodes": [[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], "faces": [[0, 1, 2], [0, 2, 3]] } },
     "events": [ { "mode": "merge" }, { "click": [45, 40] }, { "click": [60, 55] }, { "checkpoint": "cut" } ] }"#;
 
+/// A script, packed.
+fn packed(script: &str) -> Vec<u8> {
+    let mut recording = Script::parse(script.as_bytes()).expect("a script").unhashed().clone();
+    let scene = assets::open(recording.scene(), Path::new(""), &CacheOptions::off()).expect("a scene");
+    recording.set_hashes([scene.scene_hash, scene.mesh_hash]);
+    to_bytes(&recording).expect("it has a form")
+}
+
 #[test]
 fn a_corrupted_node_of_a_real_cut_is_named() {
     let suite = Suite::new(&[]);
-    let mut recording = Script::parse(SQUARE.as_bytes()).expect("a script").unhashed().clone();
-    let scene = assets::open(recording.scene(), Path::new(""), &CacheOptions::off()).expect("a scene");
-    recording.set_hashes([scene.scene_hash, scene.mesh_hash]);
-    suite.put("recordings/square.lancet", &to_bytes(&recording).expect("it has a form"));
+    suite.put("recordings/square.lancet", &packed(SQUARE));
     let paths = [suite.at("recordings")];
     assert_eq!(bless(&paths, &because("a test"), &()).exit_code(), 0);
     let report = verify(&paths, &VerifyOptions::default(), &());
