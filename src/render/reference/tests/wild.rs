@@ -32,7 +32,7 @@ fn basis(forward: DVec3) -> [DVec3; 3] {
 
 prop_compose! {
     fn view()(
-        eye in point(), forward in point(), fov_y in prop_oneof![Just(0.6), 1e-6..3.14_f64],
+        eye in point(), forward in point(), fov_y in prop_oneof![Just(0.6), 1e-6..3.1_f64],
         size in (1..70_u32, 1..50_u32),
         near in prop_oneof![Just(0.01), 1e-12..1e3_f64, Just(0.0)], depth in prop_oneof![Just(100.0), 1e-3..1e12_f64],
     ) -> View {
