@@ -210,14 +210,23 @@ fn temporary_times() {
     let Some(device) = device() else { return };
     for (size, cutsize) in [([1024, 1024], [300u32, 85u32]), ([4096, 4096], [1200, 214])] {
         let (mut painter, mut reference) = painters(&device, size);
-        for k in 0..6 {
-            let painting = cut(vec2(0.3, 0.5), vec2(0.8, 0.55 + 0.01 * k as f32), 0.1, cutsize, k);
+        for k in 0..9 {
+            let mut painting = Painting::clone(&cut(vec2(0.3, 0.5), vec2(0.8, 0.55 + 0.002 * k as f32), 0.1, cutsize, k));
+            if k >= 6 {
+                painting.paint.noise.octaves = 0;
+                painting.patch.noise.octaves = 0;
+            }
+            let painting = Arc::new(painting);
             let t = std::time::Instant::now();
             painter.patch(&painting.patch).unwrap();
             let a = t.elapsed();
             let t = std::time::Instant::now();
             painter.paint(&painting).unwrap();
             let b = t.elapsed();
+            let t = std::time::Instant::now();
+            device.submit("x", |_| ()).unwrap();
+            device.wait().unwrap();
+            let f = t.elapsed();
             let t = std::time::Instant::now();
             let l = lay_out(&painting.paint, size);
             let c = t.elapsed();
@@ -230,7 +239,7 @@ fn temporary_times() {
             reference.patch(&painting.patch);
             reference.paint(&painting);
             let d = t.elapsed();
-            eprintln!("{size:?}: patch {a:?} paint {b:?} (lay_out {c:?} prepare {e:?}) {} tiles {} triangles; reference {d:?}", l.tiles.len(), l.triangles.len());
+            eprintln!("{size:?}: empty {f:?} patch {a:?} paint {b:?} (lay_out {c:?} prepare {e:?}) {} tiles {} triangles; reference {d:?}", l.tiles.len(), l.triangles.len());
         }
     }
 }
