@@ -91,8 +91,8 @@ const BANS: &[Ban] = &[
     Ban { path: "std::env::var", but: &[], why: "an environment must not decide what a run does" },
     Ban {
         path: "std::time",
-        but: &["replay", "verify", "measure", "cli"],
-        why: "only what times a run knows a clock",
+        but: &["replay", "render", "verify", "measure", "cli"],
+        why: "only what times a run, or a pass of a frame, knows a clock",
     },
     Ban { path: "std::time::SystemTime", but: &[], why: "a run does not depend on its date" },
     Ban {

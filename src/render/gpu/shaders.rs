@@ -22,10 +22,14 @@ macro_rules! wgsl {
 
 /// All of them. The adapter's digest is over their texts.
 pub(crate) const SHADERS: &[Shader] = &[
+    Shader { name: "shadow", parts: wgsl!("shadow") },
+    Shader { name: "skin", parts: wgsl!("srgb", "maps", "light", "skin") },
+    Shader { name: "tiles", parts: wgsl!("tiles") },
+    Shader { name: "scatter", parts: wgsl!("scatter") },
+    Shader { name: "compose", parts: wgsl!("srgb", "compose") },
     Shader { name: "patch", parts: wgsl!("noise", "patch") },
     Shader { name: "place", parts: wgsl!("place") },
     Shader { name: "paint", parts: wgsl!("noise", "place", "paint") },
-    Shader { name: "shadow", parts: wgsl!("shadow") },
 ];
 
 /// A shader by its name.

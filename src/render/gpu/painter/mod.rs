@@ -18,7 +18,6 @@ mod maps;
 mod paint;
 mod patch;
 mod place;
-mod record;
 #[cfg(test)]
 mod tests;
 
@@ -32,6 +31,7 @@ use self::paint::{Faults, PaintPass, Told};
 use self::patch::{Made, PatchPass};
 use self::place::{Drawn, PlacePass, Triangle};
 use super::device::Device;
+use super::record;
 use crate::canvas::RenderError;
 use crate::canvas::image::{Image, MapId, Maps};
 use crate::canvas::job::{Painting, PatchJob};

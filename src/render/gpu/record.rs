@@ -4,7 +4,7 @@
 //! of the same name. What WGSL would pad has a field for the padding, so that it may be written without unsafe code.
 
 /// What is made of whole words.
-pub(super) trait Words {
+pub(crate) trait Words {
     /// How many words.
     const COUNT: usize;
 
@@ -38,16 +38,15 @@ impl<T: Words, const N: usize> Words for [T; N] {
 
 /// Makes a struct of [`Words`], by the name of its WGSL twin.
 macro_rules! record {
-    ($(#[$doc:meta])* $name:ident { $($field:ident: $kind:ty,)* }) => {
+    ($(#[$doc:meta])* $name:ident { $($(#[$about:meta])* $field:ident: $kind:ty,)* }) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, Default)]
-        pub(super) struct $name {
-            $(pub(super) $field: $kind,)*
+        pub(crate) struct $name {
+            $($(#[$about])* pub(crate) $field: $kind,)*
         }
 
-        impl $crate::render::gpu::painter::record::Words for $name {
-            const COUNT: usize =
-                0 $(+ <$kind as $crate::render::gpu::painter::record::Words>::COUNT)*;
+        impl $crate::render::gpu::record::Words for $name {
+            const COUNT: usize = 0 $(+ <$kind as $crate::render::gpu::record::Words>::COUNT)*;
 
             fn push(&self, words: &mut Vec<u32>) {
                 $(self.$field.push(words);)*
@@ -57,10 +56,10 @@ macro_rules! record {
         #[cfg(test)]
         impl $name {
             /// Name of the struct, and its fields with how many words each has.
-            pub(super) fn table() -> (&'static str, Vec<(&'static str, usize)>) {
+            pub(crate) fn table() -> (&'static str, Vec<(&'static str, usize)>) {
                 let fields = vec![$((
                     stringify!($field),
-                    <$kind as $crate::render::gpu::painter::record::Words>::COUNT,
+                    <$kind as $crate::render::gpu::record::Words>::COUNT,
                 )),*];
                 (stringify!($name), fields)
             }
@@ -68,10 +67,10 @@ macro_rules! record {
     };
 }
 
-pub(super) use record;
+pub(crate) use record;
 
 /// Records as bytes.
-pub(super) fn bytes<T: Words>(records: &[T]) -> Vec<u8> {
+pub(crate) fn bytes<T: Words>(records: &[T]) -> Vec<u8> {
     let mut words = Vec::with_capacity(records.len() * T::COUNT);
     records.iter().for_each(|record| record.push(&mut words));
     bytemuck::cast_slice(&words).to_vec()

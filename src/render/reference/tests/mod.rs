@@ -1,0 +1,1 @@
+//! What users of the reference rely on.
