@@ -142,8 +142,8 @@ fn beyond_the_budget_the_maps_are_made_again() {
     let (maps, sheet) = (kit::maps([256, 256]), sheet(HERE));
     let cuts: Vec<_> =
         (0..4).map(|k| cut(vec2(0.2, 0.2 + 0.1 * k as f32), vec2(0.9, 0.5), 0.2, [90, 36], k)).collect();
-    let mut small =
-        Painter::with_budget(device.clone(), &Arc::default(), &maps, &sheet, 1).expect("a painter");
+    let room = Room { journal: 1, ..ROOM };
+    let mut small = Painter::within(device.clone(), &Arc::default(), &maps, &sheet, room).expect("a painter");
     let mut large = Painter::new(device, &maps, &sheet).expect("a painter");
     for painter in [&mut small, &mut large] {
         painter.follow(&cuts).expect("maps that follow");
@@ -229,28 +229,5 @@ fn runs_are_the_tiles_of_a_map_and_overlap_nowhere() {
         let windows = tiles.iter().map(|tile| crate::render::layout::tile_window(*tile, size));
         let wanted: u32 = windows.map(|w| (w.to[0] - w.from[0]) * (w.to[1] - w.from[1])).sum();
         assert_eq!(texels, wanted, "{size:?}");
-    }
-}
-
-#[test]
-fn temporary_times() {
-    let Some(device) = device() else { return };
-    for (size, cutsize) in [([1024, 1024], [300u32, 85u32]), ([4096, 4096], [1200, 214])] {
-        let (mut painter, mut reference) = painters(&device, size, HERE);
-        for k in 0..9 {
-            let painting = cut(vec2(0.3, 0.5), vec2(0.8, 0.55 + 0.002 * k as f32), 0.1, cutsize, k);
-            let t = std::time::Instant::now();
-            painter.patch(&painting.patch).unwrap();
-            let a = t.elapsed();
-            let t = std::time::Instant::now();
-            painter.paint(&painting).unwrap();
-            let b = t.elapsed();
-            let t = std::time::Instant::now();
-            reference.patch(&painting.patch);
-            reference.paint(&painting);
-            let d = t.elapsed();
-            let n = lay_out(&painting.paint, size).tiles.len();
-            eprintln!("{size:?}: patch {a:?} paint {b:?} {n} tiles; reference {d:?}");
-        }
     }
 }
