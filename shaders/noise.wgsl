@@ -1,16 +1,15 @@
 // Perlin's and simplex noise in two dimensions without tables (Gustavson and McEwan 2012), and fractional Brownian motion over the latter.
 // Operation by operation that of the CPU.
 
+// How many noises are added. A constant of the pipeline, so that the loop is unrolled.
+override OCTAVES: u32;
+
 struct Fbm {
-    octaves: u32,
     frequency: f32,
     amplitude: f32,
     lacunarity: f32,
     persistence: f32,
 }
-
-// No scene may ask for more.
-const MOST_OCTAVES = 16u;
 
 // An integer's remainder by 289. Half a step off the integers, so that no rounding makes 289 of 0.
 fn remainder(x: f32) -> f32 {
@@ -75,7 +74,7 @@ fn fbm(p: vec2f, noise: Fbm) -> f32 {
     var sum = 0.0;
     var frequency = noise.frequency;
     var amplitude = noise.amplitude;
-    for (var octave = 0u; octave < min(noise.octaves, MOST_OCTAVES); octave++) {
+    for (var octave = 0u; octave < OCTAVES; octave++) {
         sum += amplitude * simplex(p * frequency);
         frequency *= noise.lacunarity;
         amplitude *= noise.persistence;

@@ -29,7 +29,7 @@ impl Painter {
         }
         let within = inspect::within(&painting.paint, self.maps.size(), &mask.covered, &changed);
         let faults = Faults::read(&self.device, &trace.faults)?;
-        Ok(vec![within, inspect::finite(faults)])
+        Ok(vec![within, inspect::finite(faults.iter().map(|fault| (fault.texel, fault.place)))])
     }
 
     /// The texels of a block that are no longer what was saved.

@@ -1,8 +1,8 @@
 //! The journal of the device: what each painting painted over, so that it can be taken back bit for bit.
 //!
 //! A map is cut into tiles of 64². Before a painting the tiles that it may change are copied from both maps into a buffer; putting them
-//! back, last painting first, restores the maps. Tiles that lie side by side are copied as one [`Run`], and at most [`BLOCK`] tiles
-//! share a buffer. Buffers beyond the budget are dropped, oldest first, but never the newest one, which the checks look at:
+//! back, last painting first, restores the maps. Tiles that lie side by side are copied as one [`Run`], and only so many tiles as are
+//! painted at a time share a buffer. Buffers beyond the budget are dropped, oldest first, but never the newest one, which the checks look at:
 //! what is older can then only be reached from the scene's own maps.
 
 use std::sync::Arc;
@@ -15,9 +15,6 @@ use crate::canvas::job::Painting;
 use crate::render::gpu::device::Device;
 use crate::render::gpu::readback::Region;
 use crate::render::layout::{TILE, tile_window};
-
-/// Tiles that are painted at a time: this bounds the target that triangles are drawn into.
-pub(super) const BLOCK: usize = 1024;
 
 /// Tiles side by side on the target that triangles are drawn into.
 pub(super) const ACROSS: u32 = 32;
@@ -79,7 +76,7 @@ impl Block {
         let joins = |run: &&mut Run| {
             run.origin[1] == window.from[1]
                 && run.origin[0] + run.size[0] == window.from[0]
-                && slot % ACROSS != 0
+                && !slot.is_multiple_of(ACROSS)
         };
         if let Some(run) = self.runs.last_mut().filter(joins) {
             run.size[0] += width;
@@ -90,14 +87,14 @@ impl Block {
     }
 }
 
-/// Tiles of a map of this size, ascending, as blocks.
-pub(super) fn blocks(tiles: &[u32], size: [u32; 2]) -> Vec<Block> {
+/// Tiles of a map of this size, ascending, as blocks of at most so many.
+pub(super) fn blocks(tiles: &[u32], size: [u32; 2], most: usize) -> Vec<Block> {
     let whole = |tiles: &[u32]| {
         let mut block = Block::default();
         (0..).zip(tiles).for_each(|(slot, &index)| block.push(slot, index, size));
         block
     };
-    tiles.chunks(BLOCK).map(whole).collect()
+    tiles.chunks(most).map(whole).collect()
 }
 
 /// What a block painted over.

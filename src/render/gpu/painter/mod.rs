@@ -16,6 +16,7 @@ mod check;
 mod journal;
 mod maps;
 mod paint;
+mod passes;
 mod patch;
 mod place;
 #[cfg(test)]
@@ -23,11 +24,12 @@ mod tests;
 
 use std::sync::Arc;
 
-use wgpu::{BindingResource, BufferUsages, TextureFormat, TextureUsages};
+use wgpu::{BufferUsages, TextureFormat, TextureUsages};
 
 use self::journal::{Block, Journal, Saved, Trace, blocks};
 use self::maps::Pair;
 use self::paint::{Faults, PaintPass, Told};
+pub use self::passes::Passes;
 use self::patch::{Made, PatchPass};
 use self::place::{Drawn, PlacePass, Triangle};
 use super::device::Device;
@@ -39,23 +41,17 @@ use crate::mesh::Mesh;
 use crate::render::layout::{TILE, lay_out};
 use crate::render::mask::Charts;
 
-/// Bytes that the journal may keep on the device.
-const BUDGET: u64 = 64 << 20;
-
-/// The passes, compiled.
-#[derive(Debug)]
-struct Passes {
-    patch: PatchPass,
-    place: PlacePass,
-    paint: PaintPass,
+/// How much of the device a painter may take.
+#[derive(Clone, Copy, Debug)]
+struct Room {
+    /// Bytes that the journal may keep.
+    journal: u64,
+    /// Tiles that are painted at a time: this bounds the target that triangles are drawn into.
+    tiles: usize,
 }
 
-impl Passes {
-    fn new(device: &Device) -> Result<Self, RenderError> {
-        let (patch, place) = (PatchPass::new(device)?, PlacePass::new(device)?);
-        Ok(Self { patch, place, paint: PaintPass::new(device)? })
-    }
-}
+/// A target of 16 MiB at most, and twice as much at a time for the journal.
+const ROOM: Room = Room { journal: 64 << 20, tiles: 1024 };
 
 /// Paints on the maps of one scene.
 #[derive(Debug)]
@@ -67,25 +63,37 @@ pub struct Painter {
     charts: Charts,
     /// Made when something is first painted.
     mask: Option<Mask>,
-    passes: Option<Arc<Passes>>,
+    passes: Arc<Passes>,
     /// Where triangles are placed; it grows with what is painted.
     target: Option<wgpu::Texture>,
     /// The patch that was made last.
     made: Option<Made>,
     journal: Journal,
+    room: Room,
 }
 
 impl Painter {
     /// A painter of a scene with nothing painted yet. Of the mesh only the faces' texture coordinates matter.
     pub fn new(device: Arc<Device>, maps: &Arc<Maps>, mesh: &Mesh) -> Result<Self, RenderError> {
-        Self::with_budget(device, maps, mesh, BUDGET)
+        Self::sharing(device, &Arc::default(), maps, mesh)
     }
 
-    fn with_budget(
+    /// The same, with passes that other painters on this device use too.
+    pub fn sharing(
         device: Arc<Device>,
+        passes: &Arc<Passes>,
         maps: &Arc<Maps>,
         mesh: &Mesh,
-        budget: u64,
+    ) -> Result<Self, RenderError> {
+        Self::within(device, passes, maps, mesh, ROOM)
+    }
+
+    fn within(
+        device: Arc<Device>,
+        passes: &Arc<Passes>,
+        maps: &Arc<Maps>,
+        mesh: &Mesh,
+        room: Room,
     ) -> Result<Self, RenderError> {
         Ok(Self {
             maps: Pair::new(&device, &maps.color)?,
@@ -93,10 +101,11 @@ impl Painter {
             scene: maps.clone(),
             charts: Charts::of(mesh),
             mask: None,
-            passes: None,
+            passes: passes.clone(),
             target: None,
             made: None,
-            journal: Journal::new(budget),
+            journal: Journal::new(room.journal),
+            room,
         })
     }
 
@@ -121,9 +130,9 @@ impl Painter {
 
     /// Makes the wound patch of a cut, and waits until it is there.
     pub fn patch(&mut self, job: &PatchJob) -> Result<(), RenderError> {
-        let passes = self.passes()?;
-        let (made, bound) = passes.patch.prepare(&self.device, job)?;
-        self.device.submit("wound patch", |encoder| passes.patch.record(encoder, &made, &bound))?;
+        let pass = self.passes.patch(&self.device, &job.noise)?;
+        let (made, bound) = pass.prepare(&self.device, job)?;
+        self.device.submit("wound patch", |encoder| pass.record(encoder, &made, &bound))?;
         self.device.wait()?;
         self.made = Some(made);
         Ok(())
@@ -131,9 +140,8 @@ impl Painter {
 
     /// Carries a painting out over those before it, and waits for it.
     pub fn paint(&mut self, painting: &Arc<Painting>) -> Result<(), RenderError> {
-        let passes = self.passes()?;
-        let cut = self.prepare(&passes, painting)?;
-        self.device.submit("cut", |encoder| self.record(encoder, &passes, &cut))?;
+        let cut = self.prepare(painting)?;
+        self.device.submit("cut", |encoder| self.record(encoder, &cut))?;
         self.device.wait()?;
         self.made = Some(cut.wound.made);
         let saved = cut.blocks.into_iter().map(|block| block.saved).collect();
@@ -169,15 +177,6 @@ impl Painter {
         Ok(0)
     }
 
-    /// The passes; they are compiled when something is first painted.
-    fn passes(&mut self) -> Result<Arc<Passes>, RenderError> {
-        let passes = match self.passes.take() {
-            Some(passes) => passes,
-            None => Arc::new(Passes::new(&self.device)?),
-        };
-        Ok(self.passes.insert(passes).clone())
-    }
-
     /// The mask of the texels that faces cover.
     fn mask(&mut self) -> Result<wgpu::Texture, RenderError> {
         if let Some(mask) = &self.mask {
@@ -202,55 +201,50 @@ impl Painter {
     }
 
     /// The patch of a painting; if it is not the one that was made last, with what makes it.
-    fn wound(&self, passes: &Passes, job: &PatchJob) -> Result<Wound, RenderError> {
+    fn wound(&self, job: &PatchJob) -> Result<Wound, RenderError> {
         if let Some(made) = self.made.as_ref().filter(|made| made.job == *job) {
-            return Ok(Wound { made: made.clone(), bound: None });
+            return Ok(Wound { made: made.clone(), by: None });
         }
-        let (made, bound) = passes.patch.prepare(&self.device, job)?;
-        Ok(Wound { made, bound: Some(bound) })
+        let pass = self.passes.patch(&self.device, &job.noise)?;
+        let (made, bound) = pass.prepare(&self.device, job)?;
+        Ok(Wound { made, by: Some((pass, bound)) })
     }
 
     /// Uploads what a cut needs.
-    fn prepare(&mut self, passes: &Passes, painting: &Painting) -> Result<Cut, RenderError> {
-        let wound = self.wound(passes, &painting.patch)?;
+    fn prepare(&mut self, painting: &Painting) -> Result<Cut, RenderError> {
+        let wound = self.wound(&painting.patch)?;
         let layout = lay_out(&painting.paint, self.maps.size());
-        let blocks = blocks(&layout.tiles, self.maps.size());
+        let blocks = blocks(&layout.tiles, self.maps.size(), self.room.tiles);
         let rows = blocks.iter().map(Block::rows).max().unwrap_or(1);
         let (mask, target) = (self.mask()?, self.target(rows)?);
+        let device = &self.device;
         let listed: Vec<_> = layout.triangles.iter().map(Triangle::from).collect();
-        let triangles = &self.device.filled("triangles", &record::bytes(&listed), BufferUsages::STORAGE)?;
-        let job = &PaintPass::job(&self.device, painting)?;
+        let triangles = &device.filled("triangles", &record::bytes(&listed), BufferUsages::STORAGE)?;
+        let (job, faults) = (&PaintPass::job(device, painting)?, Faults::none(device)?);
+        let passes = (self.passes.place(device)?, self.passes.paint(device, &painting.paint.noise)?);
         let drawn = Drawn { layout: &layout, triangles, mask: &mask };
-        let faults = Faults::none(&self.device)?;
         let texels = &wound.made.texels;
         let told = Told { job, triangles, wound: texels, placed: &target, faults: &faults };
-        let blocks = blocks.into_iter().map(|block| self.upload(passes, block, &drawn, &told));
-        Ok(Cut { blocks: blocks.collect::<Result<_, _>>()?, wound, target, faults })
-    }
-
-    /// Uploads what a block of a cut needs.
-    fn upload(
-        &self,
-        passes: &Passes,
-        block: Block,
-        drawn: &Drawn<'_>,
-        told: &Told<'_>,
-    ) -> Result<Work, RenderError> {
-        let placed = passes.place.prepare(&self.device, &block, drawn)?;
-        let saved = Saved::new(&self.device, block)?;
-        let painted = passes.paint.prepare(&self.device, &saved, told, &self.maps)?;
-        Ok(Work { saved, placed, painted })
+        let work = |block| {
+            let placed = passes.0.prepare(device, &block, &drawn)?;
+            let saved = Saved::new(device, block)?;
+            let painted = passes.1.prepare(device, &saved, &told, &self.maps)?;
+            Ok(Work { saved, placed, painted })
+        };
+        let blocks = blocks.into_iter().map(work).collect::<Result<_, _>>()?;
+        Ok(Cut { wound, passes, blocks, target, faults })
     }
 
     /// Asks for all of a cut.
-    fn record(&self, encoder: &mut wgpu::CommandEncoder, passes: &Passes, cut: &Cut) {
-        if let Some(bound) = &cut.wound.bound {
-            passes.patch.record(encoder, &cut.wound.made, bound);
+    fn record(&self, encoder: &mut wgpu::CommandEncoder, cut: &Cut) {
+        if let Some((pass, bound)) = &cut.wound.by {
+            pass.record(encoder, &cut.wound.made, bound);
         }
+        let (place, paint) = &cut.passes;
         for Work { saved, placed, painted } in &cut.blocks {
             saved.save(encoder, &self.maps);
-            passes.place.record(encoder, &saved.block, placed, &cut.target, self.maps.size());
-            passes.paint.record(encoder, painted);
+            place.record(encoder, &saved.block, placed, &cut.target, self.maps.size());
+            paint.record(encoder, painted);
         }
     }
 }
@@ -258,7 +252,7 @@ impl Painter {
 /// A patch, and what makes it if it is not there yet.
 struct Wound {
     made: Made,
-    bound: Option<wgpu::BindGroup>,
+    by: Option<(Arc<PatchPass>, wgpu::BindGroup)>,
 }
 
 /// What a block of a cut is painted with.
@@ -271,6 +265,7 @@ struct Work {
 /// A cut, ready to be recorded.
 struct Cut {
     wound: Wound,
+    passes: (Arc<PlacePass>, Arc<PaintPass>),
     blocks: Vec<Work>,
     target: wgpu::TextureView,
     faults: wgpu::Buffer,
@@ -281,36 +276,4 @@ struct Cut {
 struct Mask {
     texture: wgpu::Texture,
     covered: Vec<u8>,
-}
-
-/// A compute pipeline of the shader of this name.
-fn compute_pipeline(device: &Device, name: &str) -> Result<wgpu::ComputePipeline, RenderError> {
-    let shader = device.shader(name)?;
-    device.guarded(name, || {
-        device.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some(name),
-            layout: None,
-            module: &shader,
-            entry_point: Some("compute"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            cache: None,
-        })
-    })
-}
-
-/// Binds what a pass works on.
-fn bound<const N: usize>(
-    device: &Device,
-    name: &str,
-    layout: &wgpu::BindGroupLayout,
-    entries: [(u32, BindingResource<'_>); N],
-) -> Result<wgpu::BindGroup, RenderError> {
-    let entries = entries.map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource });
-    device.guarded(name, || {
-        device.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some(name),
-            layout,
-            entries: &entries,
-        })
-    })
 }

@@ -7,9 +7,9 @@ use wgpu::BufferUsages;
 
 use super::journal::{Run, Saved};
 use super::maps::Pair;
+use super::passes::{bound, compute_pipeline};
 use super::patch::Fbm;
 use super::record::{Words, bytes, record};
-use super::{bound, compute_pipeline};
 use crate::canvas::RenderError;
 use crate::canvas::job::Painting;
 use crate::render::gpu::device::Device;
@@ -29,7 +29,6 @@ record! {
         patch_size: [u32; 2],
         factor: [f32; 4],
         noise: Fbm,
-        padding: [u32; 3],
     }
 }
 
@@ -73,16 +72,14 @@ impl Faults {
         device.buffer("texels without a place", 4 * Self::COUNT as u64, usage)
     }
 
-    /// The texels that a buffer tells of, with their (s, d).
-    pub(super) fn read(
-        device: &Device,
-        buffer: &wgpu::Buffer,
-    ) -> Result<Vec<([u32; 2], [f32; 2])>, RenderError> {
+    /// Those that a buffer tells of.
+    pub(super) fn read(device: &Device, buffer: &wgpu::Buffer) -> Result<Vec<Fault>, RenderError> {
         let bytes = device.read_buffer(buffer, 0..4 * Self::COUNT as u64)?;
         let words: Vec<u32> = bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect();
         let told = words[0].min(FAULTS as u32) as usize;
         let faults = words[2..].as_chunks::<{ Fault::COUNT }>().0.iter().take(told);
-        Ok(faults.map(|[x, y, s, d]| ([*x, *y], [*s, *d].map(f32::from_bits))).collect())
+        let fault = |&[x, y, s, d]: &[u32; 4]| Fault { texel: [x, y], place: [s, d].map(f32::from_bits) };
+        Ok(faults.map(fault).collect())
     }
 }
 
@@ -142,8 +139,8 @@ pub(super) struct Prepared {
 pub(super) struct PaintPass(wgpu::ComputePipeline);
 
 impl PaintPass {
-    pub(super) fn new(device: &Device) -> Result<Self, RenderError> {
-        compute_pipeline(device, "paint").map(Self)
+    pub(super) fn new(device: &Device, octaves: u32) -> Result<Self, RenderError> {
+        compute_pipeline(device, "paint", octaves).map(Self)
     }
 
     /// What the shader is told of a painting.

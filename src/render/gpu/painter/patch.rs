@@ -6,8 +6,8 @@
 use wgpu::BufferUsages;
 
 use super::maps::texels;
+use super::passes::{bound, compute_pipeline};
 use super::record::{bytes, record};
-use super::{bound, compute_pipeline};
 use crate::canvas::RenderError;
 use crate::canvas::image::Image;
 use crate::canvas::job::PatchJob;
@@ -20,7 +20,6 @@ const GROUP: u32 = 8;
 record! {
     /// Fractional Brownian motion.
     Fbm {
-        octaves: u32,
         frequency: f32,
         amplitude: f32,
         lacunarity: f32,
@@ -39,14 +38,13 @@ record! {
         edge: [f32; 2],
         unused: [u32; 2],
         noise: Fbm,
-        padding: [u32; 3],
     }
 }
 
 impl From<look::Fbm> for Fbm {
     fn from(noise: look::Fbm) -> Self {
-        let look::Fbm { octaves, frequency, amplitude, lacunarity, persistence } = noise;
-        Self { octaves, frequency, amplitude, lacunarity, persistence }
+        let look::Fbm { frequency, amplitude, lacunarity, persistence, .. } = noise;
+        Self { frequency, amplitude, lacunarity, persistence }
     }
 }
 
@@ -83,8 +81,8 @@ fn bytes_of([width, height]: [u32; 2]) -> u64 {
 pub(super) struct PatchPass(wgpu::ComputePipeline);
 
 impl PatchPass {
-    pub(super) fn new(device: &Device) -> Result<Self, RenderError> {
-        compute_pipeline(device, "patch").map(Self)
+    pub(super) fn new(device: &Device, octaves: u32) -> Result<Self, RenderError> {
+        compute_pipeline(device, "patch", octaves).map(Self)
     }
 
     /// Prepares a patch: what [`PatchPass::record`] will fill, and with what it does.

@@ -11,8 +11,8 @@
 
 use wgpu::{BufferUsages, TextureFormat, TextureUsages};
 
-use super::bound;
 use super::journal::{ACROSS, Block, Run};
+use super::passes::bound;
 use super::record::{bytes, record};
 use crate::canvas::RenderError;
 use crate::render::gpu::device::Device;
@@ -109,7 +109,7 @@ impl PlacePass {
         device.texture("placed triangles", [ACROSS * TILE, rows * TILE], FORMAT, usage)
     }
 
-    /// Prepares the drawing of a block. `mask` says where faces lie.
+    /// Prepares the drawing of a block.
     pub(super) fn prepare(
         &self,
         device: &Device,

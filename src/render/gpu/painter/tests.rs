@@ -3,14 +3,14 @@
 mod kit;
 mod shaders;
 
-use glam::vec2;
+use glam::{Vec2, vec2};
 
-use super::journal::{BLOCK, blocks};
+use super::journal::blocks;
 use super::*;
 use crate::canvas::image::Image;
 use crate::render::layout::tiles_of;
 use crate::report::Check;
-use kit::{both, cut, device, gap, painters, sheet, touched};
+use kit::{HERE, both, cut, device, gap, moved, painters, sheet, touched};
 
 /// Part of the texels that may differ by more than one: a bit of noise near a layer's edge may put a texel on its other side.
 const OUTLIERS_PER_MILLE: usize = 1;
@@ -29,9 +29,10 @@ fn assert_close(what: &str, ours: &Image, reference: &Image, touched: usize) {
 #[test]
 fn a_patch_is_the_reference_s() {
     let Some(device) = device() else { return };
-    let (mut painter, mut reference) = painters(&device, [64, 64]);
-    for (key, size) in [(0, [160, 55]), (1, [97, 39]), (2, [8, 5]), (3, [700, 150])] {
-        let job = cut(vec2(0.3, 0.5), vec2(0.7, 0.5), 0.2, size, key).patch.clone();
+    let (mut painter, mut reference) = painters(&device, [64, 64], HERE);
+    for (octaves, size) in [(4, [160, 55]), (2, [97, 39]), (0, [8, 5]), (5, [700, 150])] {
+        let mut job = cut(vec2(0.3, 0.5), vec2(0.7, 0.5), 0.2, size, octaves).patch.clone();
+        job.noise.octaves = octaves;
         painter.patch(&job).expect("a patch");
         let made = painter.made.as_ref().expect("the patch").read(&device).expect("its texels");
         let wanted = reference.patch(&job);
@@ -43,12 +44,12 @@ fn a_patch_is_the_reference_s() {
     }
 }
 
-/// Paints with both, and compares.
-fn compare(what: &str, size: [u32; 2], cuts: &[Arc<Painting>]) {
+/// Paints with both, the charts moved by this, and compares.
+fn compare(what: &str, size: [u32; 2], by: Vec2, cuts: &[Arc<Painting>]) {
     let Some(device) = device() else { return };
-    let (mut painter, mut reference) = painters(&device, size);
+    let (mut painter, mut reference) = painters(&device, size, by);
     let [plain, clear] = both(&painter);
-    for cut in cuts {
+    for cut in &cuts.iter().map(|cut| moved(cut, by)).collect::<Vec<_>>() {
         painter.paint(cut).expect("a painting");
         reference.paint(cut);
         assert_eq!(broken(&painter.check_paint().expect("checks")), Vec::<&str>::new());
@@ -60,12 +61,12 @@ fn compare(what: &str, size: [u32; 2], cuts: &[Arc<Painting>]) {
 
 #[test]
 fn a_painting_is_the_reference_s() {
-    compare("one chart", [512, 512], &[cut(vec2(0.2, 0.3), vec2(0.75, 0.6), 0.3, [200, 65], 0)]);
+    compare("one chart", [512, 512], HERE, &[cut(vec2(0.2, 0.3), vec2(0.75, 0.6), 0.3, [200, 65], 0)]);
 }
 
 #[test]
 fn a_painting_across_a_seam_is_the_reference_s() {
-    compare("seam", [512, 512], &[cut(vec2(0.7, 0.45), vec2(1.4, 0.55), 0.3, [230, 71], 1)]);
+    compare("seam", [700, 700], HERE, &[cut(vec2(0.7, 0.45), vec2(1.4, 0.55), 0.3, [230, 71], 1)]);
 }
 
 #[test]
@@ -75,18 +76,43 @@ fn overlapping_discolorations_are_the_reference_s() {
         cut(vec2(0.2, 0.6), vec2(0.8, 0.5), 0.25, [200, 65], 3),
         cut(vec2(0.25, 0.55), vec2(1.2, 0.5), 0.15, [300, 85], 4),
     ];
-    compare("overlap", [512, 512], &cuts);
+    compare("overlap", [512, 512], HERE, &cuts);
 }
 
 #[test]
 fn maps_need_not_be_whole_tiles() {
-    compare("odd", [300, 200], &[cut(vec2(0.5, 0.5), vec2(1.9, 0.6), 0.4, [230, 71], 5)]);
+    compare("odd", [300, 200], HERE, &[cut(vec2(0.5, 0.5), vec2(1.9, 0.6), 0.4, [230, 71], 5)]);
+}
+
+#[test]
+fn charts_may_reach_over_the_map_s_border() {
+    let cuts = [cut(vec2(0.3, 0.5), vec2(1.7, 0.6), 0.3, [230, 71], 6)];
+    compare("border", [300, 200], vec2(0.55, -1.4), &cuts);
+}
+
+#[test]
+fn tiles_painted_a_few_at_a_time_are_the_same() {
+    let Some(device) = device() else { return };
+    let (maps, sheet) = (kit::maps([300, 400]), sheet(HERE));
+    let cuts = [
+        cut(vec2(0.3, 0.2), vec2(0.6, 0.8), 0.35, [180, 60], 2),
+        cut(vec2(0.25, 0.55), vec2(1.2, 0.5), 0.15, [300, 85], 4),
+    ];
+    let mut few = Painter::within(device.clone(), &Arc::default(), &maps, &sheet, Room { tiles: 3, ..ROOM })
+        .expect("a painter");
+    let mut all = Painter::new(device, &maps, &sheet).expect("a painter");
+    for count in [2, 1, 0, 2] {
+        few.follow(&cuts[..count]).expect("maps that follow");
+        all.follow(&cuts[..count]).expect("maps that follow");
+        assert!(both(&few) == both(&all), "{count} paintings");
+    }
+    assert_eq!(broken(&few.check_paint().expect("checks")), Vec::<&str>::new());
 }
 
 #[test]
 fn painting_forth_and_back_restores_every_byte() {
     let Some(device) = device() else { return };
-    let (mut painter, _) = painters(&device, [300, 200]);
+    let (mut painter, _) = painters(&device, [300, 200], HERE);
     let cuts = [
         cut(vec2(0.1, 0.4), vec2(0.9, 0.6), 0.3, [100, 40], 0),
         cut(vec2(0.8, 0.2), vec2(1.5, 0.7), 0.3, [120, 44], 1),
@@ -113,10 +139,11 @@ fn painting_forth_and_back_restores_every_byte() {
 #[test]
 fn beyond_the_budget_the_maps_are_made_again() {
     let Some(device) = device() else { return };
-    let (maps, sheet) = (kit::maps([256, 256]), sheet());
+    let (maps, sheet) = (kit::maps([256, 256]), sheet(HERE));
     let cuts: Vec<_> =
         (0..4).map(|k| cut(vec2(0.2, 0.2 + 0.1 * k as f32), vec2(0.9, 0.5), 0.2, [90, 36], k)).collect();
-    let mut small = Painter::with_budget(device.clone(), &maps, &sheet, 1).expect("a painter");
+    let room = Room { journal: 1, ..ROOM };
+    let mut small = Painter::within(device.clone(), &Arc::default(), &maps, &sheet, room).expect("a painter");
     let mut large = Painter::new(device, &maps, &sheet).expect("a painter");
     for painter in [&mut small, &mut large] {
         painter.follow(&cuts).expect("maps that follow");
@@ -133,7 +160,7 @@ fn beyond_the_budget_the_maps_are_made_again() {
 #[test]
 fn a_planted_defect_breaks_its_check() {
     let Some(device) = device() else { return };
-    let (mut painter, _) = painters(&device, [256, 256]);
+    let (mut painter, _) = painters(&device, [256, 256], HERE);
     let painting = cut(vec2(0.2, 0.5), vec2(0.8, 0.5), 0.2, [90, 36], 0);
     painter.paint(&painting).expect("a painting");
     assert_eq!(broken(&painter.check_paint().expect("checks")), Vec::<&str>::new());
@@ -160,7 +187,7 @@ fn a_planted_defect_breaks_its_check() {
 #[test]
 fn what_is_no_number_is_not_painted_and_told() {
     let Some(device) = device() else { return };
-    let (mut painter, _) = painters(&device, [256, 256]);
+    let (mut painter, _) = painters(&device, [256, 256], HERE);
     let mut painting = Painting::clone(&cut(vec2(0.2, 0.5), vec2(0.8, 0.5), 0.2, [90, 36], 0));
     for face in &mut painting.paint.faces {
         face.at[1].x = f32::NAN;
@@ -174,7 +201,7 @@ fn what_is_no_number_is_not_painted_and_told() {
 #[test]
 fn a_patch_beyond_the_device_is_an_error() {
     let Some(device) = device() else { return };
-    let (mut painter, _) = painters(&device, [64, 64]);
+    let (mut painter, _) = painters(&device, [64, 64], HERE);
     let mut painting = Painting::clone(&cut(vec2(0.2, 0.5), vec2(0.8, 0.5), 0.2, [90, 36], 0));
     painting.patch.size = [u32::MAX, u32::MAX];
     assert!(matches!(painter.patch(&painting.patch), Err(RenderError::TooLarge(_))));
@@ -188,7 +215,7 @@ fn runs_are_the_tiles_of_a_map_and_overlap_nowhere() {
     for size in [[300, 200], [64, 64], [1, 1], [5000, 2100]] {
         let tiles: Vec<u32> = (0..tiles_of(size).iter().product()).filter(|k| k % 7 != 3).collect();
         let mut texels = 0;
-        for block in blocks(&tiles, size) {
+        for block in blocks(&tiles, size, 100) {
             let mut end = 0;
             for run in &block.runs {
                 assert!((0..2).all(|k| run.origin[k] + run.size[k] <= size[k]));
@@ -197,44 +224,10 @@ fn runs_are_the_tiles_of_a_map_and_overlap_nowhere() {
                 (end, texels) =
                     (run.discolor_at() + run.region().padded(), texels + run.size[0] * run.size[1]);
             }
-            assert!(block.bytes() == end && end <= 8 * (BLOCK as u64) * u64::from(TILE * TILE));
+            assert!(block.bytes() == end && end <= 8 * 100 * u64::from(TILE * TILE));
         }
         let windows = tiles.iter().map(|tile| crate::render::layout::tile_window(*tile, size));
         let wanted: u32 = windows.map(|w| (w.to[0] - w.from[0]) * (w.to[1] - w.from[1])).sum();
         assert_eq!(texels, wanted, "{size:?}");
-    }
-}
-
-#[test]
-fn temporary_times() {
-    let Some(device) = device() else { return };
-    for (size, cutsize) in [([1024, 1024], [300u32, 85u32]), ([4096, 4096], [1200, 214])] {
-        let (mut painter, mut reference) = painters(&device, size);
-        for k in 0..6 {
-            let painting = cut(vec2(0.3, 0.5), vec2(0.8, 0.55 + 0.01 * k as f32), 0.1, cutsize, k);
-            let t = std::time::Instant::now();
-            painter.patch(&painting.patch).unwrap();
-            let a = t.elapsed();
-            let t = std::time::Instant::now();
-            painter.paint(&painting).unwrap();
-            let b = t.elapsed();
-            let t = std::time::Instant::now();
-            let l = lay_out(&painting.paint, size);
-            let c = t.elapsed();
-            let t = std::time::Instant::now();
-            let p = painter.passes().unwrap();
-            let x = painter.prepare(&p, &painting).unwrap();
-            let e = t.elapsed();
-            drop(x);
-            let t = std::time::Instant::now();
-            reference.patch(&painting.patch);
-            reference.paint(&painting);
-            let d = t.elapsed();
-            eprintln!(
-                "{size:?}: patch {a:?} paint {b:?} (lay_out {c:?} prepare {e:?}) {} tiles {} triangles; reference {d:?}",
-                l.tiles.len(),
-                l.triangles.len()
-            );
-        }
     }
 }

@@ -35,6 +35,9 @@ pub(super) fn device() -> Option<Arc<Device>> {
 /// Quads along a side of a chart.
 const SIDE: u32 = 12;
 
+/// What is left as it was made, where a test moves nothing.
+pub(super) const HERE: Vec2 = Vec2::ZERO;
+
 /// Where a place of the sheet, 0 … 2 across and 0 … 1 up, lies in the atlas. The right chart stands upright beside the left one.
 fn uv(chart: u32, p: Vec2) -> Vec2 {
     match chart {
@@ -77,8 +80,8 @@ fn open(corners: [[u32; 2]; 3]) -> u8 {
     (0..3).filter(|side| border(*side)).map(|side| 1 << side).sum()
 }
 
-/// The sheet, two units wide and one high.
-pub(super) fn sheet() -> Mesh {
+/// The sheet, two units wide and one high; its charts are moved by this in the atlas.
+pub(super) fn sheet(by: Vec2) -> Mesh {
     let columns = 2 * SIDE + 1;
     let nodes = (0..=SIDE).flat_map(|j| (0..columns).map(move |i| grid(i, j)));
     let mut input = IndexedMesh {
@@ -87,7 +90,7 @@ pub(super) fn sheet() -> Mesh {
     };
     for piece in pieces() {
         let first = input.uvs.len() as u32;
-        input.uvs.extend(piece.corners.map(|[i, j]| uv(piece.chart, grid(i, j))));
+        input.uvs.extend(piece.corners.map(|[i, j]| uv(piece.chart, grid(i, j)) + by));
         input.faces.push(piece.corners.map(|[i, j]| j * columns + i));
         input.face_uvs.push([first, first + 1, first + 2]);
     }
@@ -132,6 +135,13 @@ pub(super) fn cut(from: Vec2, to: Vec2, height: f32, texels: [u32; 2], key: u32)
     })
 }
 
+/// The same cut with its charts moved in the atlas.
+pub(super) fn moved(cut: &Painting, by: Vec2) -> Arc<Painting> {
+    let mut cut = cut.clone();
+    cut.paint.faces.iter_mut().for_each(|face| face.uv = face.uv.map(|uv| uv + by));
+    Arc::new(cut)
+}
+
 fn near(face: &PaintFace, length: f32, height: f32) -> bool {
     let range = |k: fn(&Vec2) -> f32| {
         let all = face.at.iter().map(k);
@@ -153,8 +163,8 @@ pub(super) fn maps(size: [u32; 2]) -> Arc<Maps> {
 }
 
 /// Both painters of the sheet.
-pub(super) fn painters(device: &Arc<Device>, size: [u32; 2]) -> (Painter, Reference) {
-    let (maps, sheet) = (maps(size), sheet());
+pub(super) fn painters(device: &Arc<Device>, size: [u32; 2], by: Vec2) -> (Painter, Reference) {
+    let (maps, sheet) = (maps(size), sheet(by));
     (Painter::new(device.clone(), &maps, &sheet).expect("a painter"), Reference::new(&maps, &sheet))
 }
 

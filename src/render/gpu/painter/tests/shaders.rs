@@ -21,7 +21,7 @@ fn every_shader_is_valid() {
     }
 }
 
-/// Names, offsets and sizes of a struct's fields, in words, and its size.
+/// Names of a struct's fields and where they begin, and its size, in words.
 type Layout = (Vec<(String, u32)>, u32);
 
 fn of_naga(module: &naga::Module, name: &str) -> Option<Layout> {
@@ -31,15 +31,15 @@ fn of_naga(module: &naga::Module, name: &str) -> Option<Layout> {
     Some((members.iter().map(field).collect(), span / 4))
 }
 
-/// The same of a table; what is only padding has no name in WGSL.
+/// The same of a table.
 fn of_table(fields: &[(&'static str, usize)]) -> Layout {
     let mut end = 0;
-    let mut all = Vec::new();
+    let mut begins = Vec::new();
     for (name, words) in fields {
-        all.push(((*name).to_owned(), end));
+        begins.push(((*name).to_owned(), end));
         end += *words as u32;
     }
-    (all.into_iter().filter(|(name, _)| name != "padding").collect(), end)
+    (begins, end)
 }
 
 #[test]
