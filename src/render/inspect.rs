@@ -214,3 +214,6 @@ impl Shape {
         if skirted { Lies::OnSkirt } else { Lies::Outside }
     }
 }
+
+#[cfg(test)]
+mod tests;

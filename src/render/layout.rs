@@ -198,3 +198,6 @@ fn reaches(affine: &Affine, [x, y]: [i64; 2], side: i64, job: &PaintJob) -> bool
         || beyond(|p, [.., aside]| p[1] < -aside)
         || beyond(|p, [.., aside]| p[1] > aside))
 }
+
+#[cfg(test)]
+mod tests;

@@ -49,3 +49,6 @@ impl Charts {
 pub fn covered(mesh: &Mesh, size: [u32; 2]) -> Vec<u8> {
     Charts::of(mesh).covered(size)
 }
+
+#[cfg(test)]
+mod tests;

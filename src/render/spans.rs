@@ -149,3 +149,6 @@ impl Side {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -135,7 +135,8 @@ impl Brush<'_> {
         let x = ACROSS[0] + ACROSS[1] * s / self.job.length;
         let y = 0.5 - d / self.job.height;
         let unit = 0.0..=1.0;
-        if !unit.contains(&x) || !unit.contains(&y) {
+        let there = self.patch.size.iter().all(|side| *side > 1);
+        if !there || !unit.contains(&x) || !unit.contains(&y) {
             return under;
         }
         let [r, g, b, a] = bilinear(self.patch, [x, y]);
@@ -147,7 +148,7 @@ impl Brush<'_> {
     /// The stronger of a discoloration and the one that is there.
     fn discolor(&self, [s, d]: [f32; 2], there: [u8; 4]) -> [u8; 4] {
         let PaintJob { length, height, .. } = *self.job;
-        let t = 2.0 * (s / length).max(0.0).min(1.0) - 1.0;
+        let t = 2.0 * (s / length).clamp(0.0, 1.0) - 1.0;
         let radius = 0.5 * height * (1.0 - 0.5 * t * t);
         let beyond = (-s).max(s - length).max(0.0);
         let distance = (beyond * beyond + d * d).sqrt();

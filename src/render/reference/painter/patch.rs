@@ -48,7 +48,7 @@ fn mix(a: Color, b: Color, t: f32) -> Color {
 /// c: the outer layer's colour.
 fn outer(job: &PatchJob, x: f32, y: f32) -> Color {
     let noise = fbm([x + job.offset[0], y + job.offset[1]], &job.noise);
-    mix(job.palette[1], job.palette[2], (0.5 + noise).max(0.0).min(1.0))
+    mix(job.palette[1], job.palette[2], (0.5 + noise).clamp(0.0, 1.0))
 }
 
 /// A column of the patch.

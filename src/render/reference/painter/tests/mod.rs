@@ -1,0 +1,4 @@
+mod charts;
+mod follow;
+mod kit;
+mod pixels;
