@@ -32,8 +32,8 @@ override LOCALIZED: bool;
 @vertex
 fn cover(@builtin(vertex_index) corner: u32, @builtin(instance_index) instance: u32) -> @builtin(position) vec4f {
     let tile = tiles[instance];
-    // Two triangles: 0 1 2, 2 1 3.
-    let turned = select(corner, 5u - corner, corner > 2u);
+    // Two triangles: 0 1 2, 3 2 1.
+    let turned = select(corner, 6u - corner, corner > 2u);
     let at = vec2u(turned & 1u, turned >> 1u) + vec2u(tile % reach.across, tile / reach.across);
     let place = vec2f(at * TILE) / vec2f(reach.size);
     return vec4f(2.0 * place.x - 1.0, 1.0 - 2.0 * place.y, 0.0, 1.0);

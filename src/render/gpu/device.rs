@@ -37,19 +37,13 @@ pub struct Device {
 impl Device {
     /// Opens the best adapter that Vulkan offers: a discrete GPU before an integrated one, and that before a program that plays one.
     pub fn open() -> Result<Self, RenderError> {
-        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
-            backends: wgpu::Backends::VULKAN,
-            // The rest of the default flags of a debug build looks for layers that are not there, and says so.
-            flags: wgpu::InstanceFlags::DEBUG,
-            memory_budget_thresholds: wgpu::MemoryBudgetThresholds {
-                for_resource_creation: Some(FULL_PERCENT),
-                for_device_loss: None,
-            },
-            ..wgpu::InstanceDescriptor::new_without_display_handle()
-        });
-        let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::VULKAN));
-        let best = adapters.into_iter().min_by_key(|adapter| rank(adapter.get_info().device_type));
-        Self::of(&best.ok_or_else(|| RenderError::NoAdapter("no Vulkan driver offers one".into()))?)
+        let plain = best(wgpu::InstanceFlags::empty());
+        let adapter = plain.ok_or_else(|| RenderError::NoAdapter("no Vulkan driver offers one".into()))?;
+        if adapter.get_info().device_type == wgpu::DeviceType::Cpu {
+            // Mesa's lavapipe 22.3 crashes at a label in a command buffer; a frame debugger is for real GPUs.
+            return Self::of(&adapter);
+        }
+        Self::of(&best(wgpu::InstanceFlags::DEBUG).unwrap_or(adapter))
     }
 
     fn of(adapter: &wgpu::Adapter) -> Result<Self, RenderError> {
@@ -215,6 +209,21 @@ impl Device {
         })?;
         Ok(texture)
     }
+}
+
+/// The best adapter there is. With the default flags a debug build would look for layers that are not there, and say so.
+fn best(flags: wgpu::InstanceFlags) -> Option<wgpu::Adapter> {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+        backends: wgpu::Backends::VULKAN,
+        flags,
+        memory_budget_thresholds: wgpu::MemoryBudgetThresholds {
+            for_resource_creation: Some(FULL_PERCENT),
+            for_device_loss: None,
+        },
+        ..wgpu::InstanceDescriptor::new_without_display_handle()
+    });
+    let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::VULKAN));
+    adapters.into_iter().min_by_key(|adapter| rank(adapter.get_info().device_type))
 }
 
 /// The most wanted first.
