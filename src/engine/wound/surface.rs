@@ -15,7 +15,7 @@
 //! does not fit is taken up by the faces in which parts of the front meet.
 //!
 //! **Fronts that meet.** Behind an obstacle, such as the far side of a finger, two parts of the front bring coordinates that have nothing to do with
-//! each other. A face whose third corner is known, but not where the face would lay it, keeps its own ([`fits`]); such nodes are
+//! each other. A face whose third corner is known, but not where the face would lay it, keeps its own; such nodes are
 //! [`Walk::torn`].
 //!
 //! The thesis (Lam 2016, §5.3.2.1) collects faces by the texture distance of their corners from the centre of a link, recursively and twice; here both
