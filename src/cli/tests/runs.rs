@@ -54,7 +54,7 @@ fn a_replay_stops_where_it_is_told() {
     };
     assert_eq!(events("2").as_array().unwrap().len(), 3);
     let stages = events("2.FC")[2]["stages"].clone();
-    assert_eq!((&stages[0]["skipped"], &stages[1]["skipped"]), (&Value::Null, &"until".into()));
+    assert_eq!((&stages[0]["skipped"], &stages[3]["skipped"]), (&Value::Null, &"until".into()));
     assert!(complaint(&["replay", &script, "--until", "6"]).contains("there is no event 6; there are 6"));
     assert!(complaint(&["replay", &script, "--until", "2.XY"]).contains("XY"));
     assert!(complaint(&["replay", &script, "--until", "x"]).contains("4 or 4.MC"));

@@ -15,7 +15,7 @@
 //! does not fit is taken up by the faces in which parts of the front meet.
 //!
 //! **Fronts that meet.** Behind an obstacle, such as the far side of a finger, two parts of the front bring coordinates that have nothing to do with
-//! each other. A face whose third corner is known, but not where the face would lay it, keeps its own ([`fits`]); such nodes are
+//! each other. A face whose third corner is known, but not where the face would lay it, keeps its own; such nodes are
 //! [`Walk::torn`]. Where the skin curves strongly a tear may be led back towards the line, though the way there is long: a face that a tear
 //! would lay nearer to the line than the side over which one comes to it is refused from there ([`Walk::refused`]).
 //!

@@ -187,28 +187,20 @@ fn beyond(mesh: &Mesh, cut: &Cut, face: FaceId, corners: [Corner; 2]) -> Option<
     mesh.edge(edge).other_face(face).some().filter(|&f| mesh.face(f).surface == Surface::Skin)
 }
 
-/// Distance from the line to a triangle: 0 if a piece of the line is left when it is cut off at the three sides, else that of the nearest side.
+/// Distance from the line to a triangle: 0 if what the triangle leaves of d = 0 meets the line, else that of the nearest side.
 fn triangle_distance(at: [Vec2; 3], length: f64) -> f64 {
     let corners = at.map(|at| at.as_dvec2());
-    let turn = (corners[1] - corners[0]).perp_dot(corners[2] - corners[0]).signum();
-    let (mut from, mut to) = (0.0f64, length);
-    for (a, b) in [(0, 1), (1, 2), (2, 0)].map(|(i, j)| (corners[i], corners[j])) {
-        // Inside where height + slope x is not negative.
-        let (height, slope) = (turn * (b - a).perp_dot(-a), -turn * (b - a).y);
-        match slope.total_cmp(&0.0) {
-            std::cmp::Ordering::Greater => from = from.max(-height / slope),
-            std::cmp::Ordering::Less => to = to.min(-height / slope),
-            std::cmp::Ordering::Equal if height < 0.0 => to = f64::NEG_INFINITY,
-            std::cmp::Ordering::Equal => {}
-        }
+    let sides = [0, 1, 2].map(|i| [corners[i], corners[(i + 1) % 3]]);
+    let crossed = sides.iter().filter(|[a, b]| a.y.min(b.y) <= 0.0 && a.y.max(b.y) >= 0.0);
+    let places = crossed.flat_map(|[a, b]| match a.y == b.y {
+        true => [a.x, b.x],
+        false => [a.lerp(*b, a.y / (a.y - b.y)).x; 2],
+    });
+    let [from, to] = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[lo, hi], x| [lo.min(x), hi.max(x)]);
+    if from <= length && to >= 0.0 {
+        return 0.0;
     }
-    match from <= to {
-        true => 0.0,
-        false => {
-            let side = |i: usize| segment_distance(corners[i], corners[(i + 1) % 3], length);
-            side(0).min(side(1)).min(side(2))
-        }
-    }
+    sides.iter().map(|[a, b]| segment_distance(*a, *b, length)).fold(f64::INFINITY, f64::min)
 }
 
 /// Distance from the line to a segment: the least of a convex function, by its halves.
