@@ -124,7 +124,7 @@ fn tissue_at(point: Point, normal: vec3f) -> Material {
     let lower = mix(scene.tissue[2].rgb, scene.tissue[1].rgb, 2.0 * v);
     let color = select(lower, upper, v > 0.5);
     let albedo = vec3f(srgb_decode(color.r), srgb_decode(color.g), srgb_decode(color.b));
-    return Material(albedo, 0.0, v, scene.intensity, scene.roughness, normal, vec4f(0.0));
+    return Material(albedo, 0.0, 0.25 + 0.75 * v, scene.intensity, scene.roughness, normal, vec4f(0.0));
 }
 
 // E(n), times L_A.

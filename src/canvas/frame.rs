@@ -12,7 +12,7 @@
 //!
 //! - **skin** ([`Surface::Skin`]): albedo A and scattering strength a from the colour map; occlusion k_A; intensity and roughness from the specular
 //!   map; n = unit(b (x T + y B) + √max(0, 1 − x² − y²) N), (x, y) from the normal map, b the bumpiness. What is switched off, or has no map, is at its default.
-//! - **the inside of a cut** ([`Surface::Gutter`]): A between the three tissue colours at v = 1, ½, 0, mixed as sRGB values; k_A = v;
+//! - **the inside of a cut** ([`Surface::Gutter`]): A between the three tissue colours at v = 1, ½, 0, mixed as sRGB values; k_A = ¼ + ¾ v;
 //!   a = 0; n = N; the skin's own intensity and roughness. No map is read.
 //!
 //! For every light, with l the unit vector to it, D₀ and D its distances from its target and from P:

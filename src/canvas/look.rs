@@ -239,7 +239,7 @@ impl Default for Wound {
             noise: Fbm::default(),
             discolor: [[0.85, 0.95], [0.60, 0.75], [0.60, 0.85]],
             blotches: Fbm { frequency: 32.0, ..Fbm::default() },
-            tissue: [[0.66, 0.20, 0.17], [0.45, 0.06, 0.06], [0.16, 0.01, 0.02]],
+            tissue: [[0.74, 0.30, 0.25], [0.60, 0.10, 0.09], [0.36, 0.02, 0.03]],
             distance: Distance::Surface,
         }
     }

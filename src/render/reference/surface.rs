@@ -172,7 +172,7 @@ impl<'a> Materials<'a> {
         let color = if v > 0.5 { middle.lerp(rim, 2.0 * v - 1.0) } else { bottom.lerp(middle, 2.0 * v) };
         Material {
             albedo: srgb::decode_color(color.into()).into(),
-            occlusion: v,
+            occlusion: 0.25 + 0.75 * v,
             intensity: self.look.skin.intensity,
             roughness: self.look.skin.roughness,
             normal: point.normal.as_vec3(),
