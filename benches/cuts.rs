@@ -9,7 +9,7 @@ use kit::{Cutter, look, stage};
 use lancet::assets::SceneSettings;
 use lancet::assets::builtin::builtin;
 use lancet::engine::wound::{Pick, State, pick};
-use lancet::measure::thesis::TABLE;
+use lancet::measure::thesis::published::CUTS;
 use lancet::mesh::Mesh;
 
 fn main() {
@@ -17,7 +17,7 @@ fn main() {
 }
 
 fn samples() -> impl Iterator<Item = &'static str> {
-    TABLE.iter().map(|sample| sample.name)
+    CUTS.iter().map(|sample| sample.name)
 }
 
 /// A stage by itself: what comes before it is done, and what it did is taken back, while the clock stands.

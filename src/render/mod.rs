@@ -3,6 +3,7 @@
 //! | module | what it does |
 //! | --- | --- |
 //! | [`reference`] | on the CPU: the oracle, written from the papers; the same bytes on every machine |
+//! | `gpu` | on a GPU: wgpu, over Vulkan |
 //! | [`kernel`], [`beckmann`], [`srgb`] | tables that every renderer takes from here, so that they differ in nothing but arithmetic |
 //! | [`spans`] | which texels a triangle covers |
 //! | [`mask`] | which texels the skin covers |
@@ -13,6 +14,8 @@
 //! A front end asks for a [`studio`] and hands it on. Nobody else knows which renderer it is.
 
 pub mod beckmann;
+#[cfg(feature = "gpu")]
+pub mod gpu;
 pub mod inspect;
 pub mod kernel;
 pub mod layout;
@@ -45,6 +48,12 @@ pub fn studio(choice: Choice) -> Result<Box<dyn Studio>, RenderError> {
     }
 }
 
+#[cfg(feature = "gpu")]
+fn gpu() -> Result<Box<dyn Studio>, RenderError> {
+    Ok(Box::new(gpu::Gpu::open()?))
+}
+
+#[cfg(not(feature = "gpu"))]
 fn gpu() -> Result<Box<dyn Studio>, RenderError> {
     Err(RenderError::NoAdapter("this program was built without the feature `gpu`".into()))
 }

@@ -15,10 +15,10 @@ use crate::canvas::image::Image;
 
 /// What every GPU of today can hold.
 const LARGEST_SIDE: u32 = 16384;
-/// As RGBA with 8 bits a channel.
+/// While an image is decoded, and as RGBA with 8 bits a channel.
 const MOST_BYTES: u64 = 1 << 30;
-/// No format packs a picture tighter: Deflate gets to 1032 : 1, JPEG to three quarters of that.
-const TIGHTEST: u64 = 8192;
+/// No format packs a picture tighter: Deflate gets to 1032 : 1, and a texel of one bit becomes 32.
+const TIGHTEST: u64 = 1032 * 32;
 /// Where the texels of a DDS begin, at the latest.
 const DDS_HEADER: usize = 4 + 124 + 20;
 
@@ -61,8 +61,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image, Fault> {
     let image = match Format::of(bytes)? {
         Format::Common(format) => {
             let decoder = reader(bytes, format).into_decoder().map_err(broken)?;
-            // Twice, since 16 bits a channel need so much.
-            if decoder.total_bytes() > 2 * MOST_BYTES {
+            // 16 bits a channel need twice as much.
+            if decoder.total_bytes() > MOST_BYTES {
                 return Err(too_large(decoder.dimensions().into()));
             }
             DynamicImage::from_decoder(decoder).map_err(broken)?.into_rgba8()
@@ -79,7 +79,7 @@ fn reader(bytes: &[u8], format: ImageFormat) -> ImageReader<Cursor<&[u8]>> {
     let mut limits = Limits::default();
     limits.max_image_width = Some(LARGEST_SIDE);
     limits.max_image_height = Some(LARGEST_SIDE);
-    limits.max_alloc = Some(2 * MOST_BYTES);
+    limits.max_alloc = Some(MOST_BYTES);
     reader.limits(limits);
     reader
 }
@@ -101,7 +101,7 @@ fn check(size: [u32; 2], length: usize) -> Result<(), Fault> {
 }
 
 fn too_large([width, height]: [u32; 2]) -> Fault {
-    let detail = format!("{width} x {height} texels are more than {LARGEST_SIDE} x {LARGEST_SIDE}");
+    let detail = format!("{width} x {height} texels: at most {LARGEST_SIDE} along a side, and 1 GiB");
     Fault::whole(FaultKind::TooLarge, detail)
 }
 

@@ -40,6 +40,8 @@ pub struct Painted {
     pub corners: Vec<[Corner; 3]>,
     /// Nodes at which fronts meet.
     pub torn: Vec<NodeId>,
+    /// Faces within the radius that are left out, since a tear would have folded them back over others.
+    pub refused: Vec<FaceId>,
 }
 
 /// A line on a mesh, with all that painting it asks for.
@@ -84,7 +86,7 @@ pub fn paint(place: &Place<'_>, look: &Wound, seed: u64) -> Painted {
     let faces = order.iter().map(|key| pieces[key.2].face).collect();
     let paint = job(place, look, seed, faces, inner);
     let painting = Arc::new(Painting { patch: place.patch.job.clone(), paint });
-    Painted { painting, corners, torn: walk.torn }
+    Painted { painting, corners, torn: walk.torn, refused: walk.refused }
 }
 
 fn job(place: &Place<'_>, look: &Wound, seed: u64, faces: Vec<PaintFace>, inner: usize) -> PaintJob {

@@ -16,7 +16,8 @@
 //!
 //! **Fronts that meet.** Behind an obstacle, such as the far side of a finger, two parts of the front bring coordinates that have nothing to do with
 //! each other. A face whose third corner is known, but not where the face would lay it, keeps its own ([`fits`]); such nodes are
-//! [`Walk::torn`].
+//! [`Walk::torn`]. Where the skin curves strongly a tear may be led back towards the line, though the way there is long: a face that a tear
+//! would lay nearer to the line than the side over which one comes to it is refused from there ([`Walk::refused`]).
 //!
 //! The thesis (Lam 2016, §5.3.2.1) collects faces by the texture distance of their corners from the centre of a link, recursively and twice; here both
 //! radii come out of one walk. It never goes over a gutter or a boundary, its work is that of the faces found, and it is done when the front is
@@ -89,6 +90,8 @@ pub struct Placed {
     pub distance: f64,
     /// The same of its sides, from each corner to the next.
     pub sides: [f64; 3],
+    /// Whether it was laid down beside, or is itself, a face with coordinates of its own.
+    pub torn: bool,
 }
 
 /// The skin around a line.
@@ -98,6 +101,8 @@ pub struct Walk {
     pub faces: Vec<Placed>,
     /// Nodes that have other coordinates in some of their faces, since fronts meet there; ascending.
     pub torn: Vec<NodeId>,
+    /// Faces within the radius that a tear would have folded back over others; ascending.
+    pub refused: Vec<FaceId>,
 }
 
 /// Lays down every face within a radius of a line, beginning with its links.
@@ -108,7 +113,9 @@ pub fn walk(mesh: &Mesh, chain: &Chain, links: &[SkinLink], length: f64, radius:
     while front.step() {}
     let mut torn: Vec<NodeId> = front.torn.into_iter().collect();
     torn.sort_unstable();
-    Walk { faces: front.faces, torn }
+    let mut refused: Vec<FaceId> = front.refused.difference(&front.seen).copied().collect();
+    refused.sort_unstable();
+    Walk { faces: front.faces, torn, refused }
 }
 
 /// The coordinates of the nodes of the links' faces: each by the link nearest to it, the line's own nodes by their arc length.
@@ -176,12 +183,13 @@ struct Front<'a> {
     steps: BinaryHeap<Step>,
     faces: Vec<Placed>,
     torn: FxHashSet<NodeId>,
+    refused: FxHashSet<FaceId>,
 }
 
 impl<'a> Front<'a> {
     fn new(mesh: &'a Mesh, length: f64, radius: f64, nodes: FxHashMap<NodeId, DVec2>) -> Self {
-        let (seen, steps, torn) = Default::default();
-        Self { mesh, length, radius, nodes, seen, steps, faces: Vec::new(), torn }
+        let (seen, steps, torn, refused) = Default::default();
+        Self { mesh, length, radius, nodes, seen, steps, faces: Vec::new(), torn, refused }
     }
 
     /// Lays down the links' faces. The edges on which the line has a point are on the line, however they are rounded.
@@ -200,7 +208,7 @@ impl<'a> Front<'a> {
                 && self.seen.insert(link.face)
             {
                 let sides = sides_to_line(&[a, b, c], self.length);
-                self.faces.push(Placed { face: link.face, at: [a, b, c], distance: 0.0, sides });
+                self.faces.push(Placed { face: link.face, at: [a, b, c], distance: 0.0, sides, torn: false });
             }
         }
         for i in 0..self.faces.len() {
@@ -234,14 +242,22 @@ impl<'a> Front<'a> {
         let corners = [first, second, third].map(|i| self.mesh.position(f.nodes[i]));
         let own = unfold(corners, [at[first], at[second]])?;
         let node = f.nodes[third];
-        at[third] = *self.nodes.entry(node).or_insert(own);
-        if at[third] != own && !fits(corners, at[third], own, self.length) {
-            at[third] = own;
+        let known = self.nodes.get(&node).copied();
+        let fitting = known.filter(|known| *known == own || fits(corners, *known, own, self.length));
+        at[third] = fitting.unwrap_or(own);
+        let torn = before.torn || (known.is_some() && fitting.is_none());
+        let sides = sides_to_line(&at, self.length);
+        let distance = triangle_to_line(&at, sides);
+        if torn && distance < before.sides[side] {
+            self.refused.insert(face);
+            return None;
+        }
+        self.nodes.entry(node).or_insert(own);
+        if known.is_some() && fitting.is_none() {
             self.torn.insert(node);
         }
         self.note_tears(f.nodes, at);
-        let sides = sides_to_line(&at, self.length);
-        Some(Placed { face, at, distance: triangle_to_line(&at, sides), sides })
+        Some(Placed { face, at, distance, sides, torn })
     }
 
     /// What a face has of its own goes on into the faces behind it.

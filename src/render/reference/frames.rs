@@ -25,6 +25,9 @@ use crate::canvas::RenderError;
 use crate::canvas::frame::{Frame, FrameJob, Pass};
 use crate::canvas::image::{Image, Maps};
 
+/// The longest side of a picture, pixels: well within what clipping leaves.
+const LONGEST: u64 = 16_384;
+
 /// The most pixels of a picture: 8192², whose layers take 5 GB.
 const MOST_PIXELS: u64 = 1 << 26;
 
@@ -37,7 +40,7 @@ pub struct Frames {
     maps: Arc<Maps>,
     /// By light; `None` before one is needed.
     shadows: Vec<Option<ShadowMap>>,
-    layers: Layers,
+    pub(super) layers: Layers,
 }
 
 impl Frames {
@@ -189,7 +192,9 @@ fn bounded(job: &FrameJob<'_>) -> Result<(), RenderError> {
     let too_large = |what: String| Err(RenderError::TooLarge(what));
     match () {
         () if width * height == 0 => too_large(format!("a picture of {width} x {height} has no pixel")),
-        () if width * height > MOST_PIXELS => too_large(format!("a picture of {width} x {height} pixels")),
+        () if width.max(height) > LONGEST || width * height > MOST_PIXELS => {
+            too_large(format!("a picture of {width} x {height} pixels"))
+        }
         () if texels > MOST_TEXELS => too_large(format!("{texels} texels of shadow maps")),
         () => Ok(()),
     }

@@ -204,13 +204,14 @@ fn arriving(light: &Light, point: DVec3) -> Arriving {
     Arriving { direction: direction.as_vec3(), light: Vec3::from(light.color) * part }
 }
 
-/// From 0 to 1 between two edges; a step where they are one.
+/// From 0 to 1 between two edges; a step where they are one, and nothing for what is no number.
 fn smoothstep(from: f64, to: f64, x: f64) -> f64 {
-    let part = (x - from) / (to - from);
-    match part {
-        // At the edges, beyond them, and at 0/0.
-        _ if !(x > from) => 0.0,
-        1.0.. => 1.0,
-        _ => part * part * (3.0 - 2.0 * part),
+    if x >= to && x > from {
+        1.0
+    } else if x > from {
+        let part = (x - from) / (to - from);
+        part * part * (3.0 - 2.0 * part)
+    } else {
+        0.0
     }
 }

@@ -33,7 +33,8 @@ pub(crate) struct Point {
     pub(crate) normal: DVec3,
     /// T and B, as they are between the corners.
     tangents: [DVec3; 2],
-    uv: [f64; 2],
+    /// Texture coordinates.
+    pub(crate) uv: [f64; 2],
 }
 
 impl Facet {
@@ -154,10 +155,13 @@ impl<'a> Materials<'a> {
         }
     }
 
-    /// n = unit(b (x T + y B) + √max(0, 1 − x² − y²) N).
+    /// n = unit(b (x T + y B) + √max(0, 1 − x² − y²) N); exactly N where the map is flat.
     fn bumped(&self, point: &Point, x: f32, y: f32) -> Vec3 {
         let [tangent, bitangent] = point.tangents.map(|t| t.as_vec3());
         let (normal, height) = (point.normal.as_vec3(), (1.0 - x * x - y * y).max(0.0).sqrt());
+        if [x, y] == [0.0; 2] {
+            return normal;
+        }
         ((tangent * x + bitangent * y) * self.look.skin.bumpiness + normal * height).normalize_or(normal)
     }
 

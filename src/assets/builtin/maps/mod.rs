@@ -85,7 +85,7 @@ pub(in crate::assets) fn paint(kind: MapKind, side: u32) -> Painted {
     match kind {
         MapKind::Bust => paint_bust(&mesh, &texels),
         _ => {
-            let color = texels.paint(skin::blank(), |site| skin::plain(site.position));
+            let [color] = texels.paint([skin::blank()], |site| [skin::plain(site.position)]);
             Painted { color, normal: None, occlusion: None, specular: None }
         }
     }
@@ -94,13 +94,11 @@ pub(in crate::assets) fn paint(kind: MapKind, side: u32) -> Painted {
 fn paint_bust(mesh: &Mesh, texels: &Texels<'_>) -> Painted {
     let relief = Relief::new(texels.texel_size());
     let openness = Openness::new(mesh);
-    Painted {
-        color: texels.paint(skin::blank(), |site| skin::color(site.position)),
-        normal: Some(texels.paint(BLANK_NORMAL, |site| relief.texel(site))),
-        occlusion: Some(texels.paint([255; 4], |site| {
-            let open = to_byte(openness.at(site).max(LEAST_OPEN));
-            [open, open, open, 255]
-        })),
-        specular: Some(texels.paint(BLANK_SPECULAR, |site| skin::specular(site.position))),
-    }
+    let blank = [skin::blank(), BLANK_NORMAL, [255; 4], BLANK_SPECULAR];
+    let [color, normal, occlusion, specular] = texels.paint(blank, |site| {
+        let open = to_byte(openness.at(site).max(LEAST_OPEN));
+        let position = site.position;
+        [skin::color(position), relief.texel(site), [open, open, open, 255], skin::specular(position)]
+    });
+    Painted { color, normal: Some(normal), occlusion: Some(occlusion), specular: Some(specular) }
 }

@@ -29,9 +29,9 @@ pub(super) fn stretched(p: DVec3, cells: DVec3, seed: u32) -> Noise {
 }
 
 fn lattice(p: DVec3, seed: u32) -> Noise {
-    let floor = p.floor();
-    let t = p - floor;
-    let [x, y, z] = floor.to_array().map(|c| c as i32 as u32);
+    let cell = p.to_array().map(floor);
+    let t = p - DVec3::from(cell.map(f64::from));
+    let [x, y, z] = cell.map(|c| c as u32);
     let at = |i: u32, j: u32, k: u32| hash(x.wrapping_add(i), y.wrapping_add(j), z.wrapping_add(k), seed);
     let fade = t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
     let steep = 30.0 * t * t * (t * (t - 2.0) + 1.0);
@@ -49,6 +49,12 @@ fn lattice(p: DVec3, seed: u32) -> Noise {
         kz + kxz * u + kyz * v + kxyz * u * v,
     );
     Noise { value, slope: slope * steep }
+}
+
+/// The whole number below: places of a model are far within an i32.
+fn floor(v: f64) -> i32 {
+    let towards_zero = v as i32;
+    towards_zero - i32::from(f64::from(towards_zero) > v)
 }
 
 /// A value in [−1, 1) for a point of the lattice (odd multipliers and the mixing steps of a 32-bit finalizer).

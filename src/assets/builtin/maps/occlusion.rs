@@ -10,7 +10,7 @@ use super::texels::Site;
 use crate::geometry::bvh::{Aabb, Bvh, Ray};
 use crate::mesh::{FaceId, Mesh, NodeId};
 
-const DIRECTIONS: u32 = 64;
+const DIRECTIONS: u32 = 48;
 const REACH_CM: f64 = 7.0;
 /// How far off the surface rays begin: the faces around a hollow node stand in front of it.
 const LIFT_CM: f64 = 0.03;

@@ -37,10 +37,10 @@ fn the_atlas_does_not_depend_on_the_number_of_faces() {
     let side = 64;
     let (coarse, fine) = (Texels::new(&coarse, side), Texels::new(&fine, side));
     let place = |texels: &Texels<'_>| {
-        let image = texels.paint([0; 4], |site| {
+        let [image] = texels.paint([[0; 4]], |site| {
             let [x, y, z] = (site.position * 4.0 + 128.0).to_array().map(|c| c.clamp(0.0, 255.0) as u8);
             let inside = site.weights.iter().all(|&w| w >= 0.0);
-            [x, y, z, if inside { 2 } else { 1 }]
+            [[x, y, z, if inside { 2 } else { 1 }]]
         });
         image.texels
     };
@@ -56,9 +56,9 @@ fn the_atlas_does_not_depend_on_the_number_of_faces() {
 fn charts_go_on_beyond_their_borders() {
     for (kind, side) in [(MapKind::Bust, 256), (MapKind::Sphere, 128), (MapKind::TwoFingers, 100)] {
         let mesh = mesh(kind);
-        let painted = Texels::new(&mesh, side).paint([0; 4], |site| {
+        let [painted] = Texels::new(&mesh, side).paint([[0; 4]], |site| {
             let inside = site.weights.iter().all(|&w| w >= 0.0);
-            [u8::from(inside), 0, 0, 255]
+            [[u8::from(inside), 0, 0, 255]]
         });
         let at = |x: u32, y: u32| painted.at(x, y);
         let (mut inside, mut beyond) = (0, 0);
@@ -112,7 +112,7 @@ fn nearest(image: &Image, texels: &Texels<'_>, point: DVec3) -> [u8; 4] {
     let best = std::sync::Mutex::new((f64::INFINITY, [0; 4]));
     let side = f64::from(image.size[0]);
     let mesh = mesh(MapKind::Bust);
-    texels.paint([0; 4], |site| {
+    texels.paint([[0; 4]], |site| {
         let uv: glam::DVec2 = (mesh.face(site.face).vertices.iter().zip(site.weights))
             .map(|(v, w)| mesh.vertex(*v).uv.as_dvec2() * w)
             .sum();
@@ -122,7 +122,7 @@ fn nearest(image: &Image, texels: &Texels<'_>, point: DVec3) -> [u8; 4] {
             let at = [uv.x * side, (1.0 - uv.y) * side].map(|c| (c as u32).min(image.size[0] - 1));
             *best = (distance, image.at(at[0], at[1]));
         }
-        [0; 4]
+        [[0; 4]]
     });
     best.into_inner().expect("held by none that panicked").1
 }

@@ -3,11 +3,11 @@
 //! A texel shows the face that its centre lies in. Around the charts [`PADDING`] texels more are taken for the nearest chart's: they show its nearest face, continued
 //! beyond its border. So bilinear sampling at a border, and the skirts of painting, meet what is on the surface, never the blank between the charts.
 
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use crate::canvas::image::Image;
-use crate::mesh::{Face, FaceId, Mesh, Vertex};
+use crate::mesh::{Face, FaceId, Mesh};
 
 /// Texels around a chart that are painted as if it went on.
 pub(super) const PADDING: u32 = 5;
@@ -46,18 +46,15 @@ impl<'a> Texels<'a> {
         texels
     }
 
-    /// An image of what `paint` sees at each texel; `blank` where there is nothing.
-    pub(super) fn paint(&self, blank: [u8; 4], paint: impl Fn(&Site) -> [u8; 4] + Sync) -> Image {
-        let mut image = Image::filled([self.side; 2], blank);
-        let rows = image.texels.par_chunks_mut(self.side as usize).enumerate();
-        rows.for_each(|(y, row)| {
-            for (x, texel) in row.iter_mut().enumerate() {
-                if let Some(site) = self.site(x as u32, y as u32) {
-                    *texel = paint(&site);
-                }
-            }
-        });
-        image
+    /// Images of what `paint` sees at each texel; `blank` where there is nothing.
+    pub(super) fn paint<const N: usize>(
+        &self,
+        blank: [[u8; 4]; N],
+        paint: impl Fn(&Site) -> [[u8; 4]; N] + Sync,
+    ) -> [Image; N] {
+        let at = |i: u32| self.site(i % self.side, i / self.side).map_or(blank, |site| paint(&site));
+        let texels: Vec<[[u8; 4]; N]> = (0..self.faces.len() as u32).into_par_iter().map(at).collect();
+        std::array::from_fn(|k| Image { size: [self.side; 2], texels: texels.iter().map(|t| t[k]).collect() })
     }
 
     /// The side of a texel on the surface, on average, model units.
@@ -75,7 +72,7 @@ impl<'a> Texels<'a> {
     fn corners(&self, face: FaceId) -> [DVec2; 3] {
         let side = f64::from(self.side);
         self.mesh.face(face).vertices.map(|v| {
-            let uv = self.mesh.vertex(v).uv.as_dvec2();
+            let uv = self.mesh.vertices()[v.at()].uv.as_dvec2();
             DVec2::new(uv.x * side - 0.5, (1.0 - uv.y) * side - 0.5)
         })
     }
@@ -136,14 +133,17 @@ impl<'a> Texels<'a> {
 impl Site {
     /// The place of a face that lies this near to each of its corners.
     pub(super) fn on(mesh: &Mesh, face: FaceId, weights: [f64; 3]) -> Self {
-        let Face { nodes, vertices, .. } = *mesh.face(face);
-        let mix =
-            |points: [DVec3; 3]| points[0] * weights[0] + points[1] * weights[1] + points[2] * weights[2];
-        let of = |get: fn(&Vertex) -> Vec3| mix(vertices.map(|v| get(&mesh.vertex(v)).as_dvec3()));
+        let Face { nodes, vertices, .. } = mesh.face(face);
+        let mix = |[a, b, c]: [DVec3; 3]| a * weights[0] + b * weights[1] + c * weights[2];
+        let corner = |k: usize| &mesh.vertices()[vertices[k].at()];
+        let corners = [corner(0), corner(1), corner(2)];
         Self {
             position: mix(nodes.map(|n| mesh.position(n))),
-            normal: of(|v| v.normal).normalize_or(DVec3::Y),
-            tangents: [of(|v| v.tangent), of(|v| v.bitangent)],
+            normal: mix(corners.map(|v| v.normal.as_dvec3())).normalize_or(DVec3::Y),
+            tangents: [
+                mix(corners.map(|v| v.tangent.as_dvec3())),
+                mix(corners.map(|v| v.bitangent.as_dvec3())),
+            ],
             face,
             weights,
         }

@@ -1,6 +1,6 @@
 //! PP: the faces around the line are all there and no others, and they lie on the plane of (s, d) as the skin around the line does.
 
-use glam::{DVec2, Vec2};
+use glam::{DVec2, DVec3, Vec2};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::largest;
@@ -9,6 +9,7 @@ use crate::canvas::look::Distance;
 use crate::engine::wound::chain::At;
 use crate::engine::wound::paint::{Corner, Painted};
 use crate::engine::wound::state::{Cut, State};
+use crate::geometry::distance_to_segment;
 use crate::mesh::{EdgeId, FaceId, Mesh, Surface};
 use crate::report::Check;
 
@@ -26,7 +27,12 @@ pub(in super::super) fn paint(state: &State, cut: &Cut) -> Vec<Check> {
     // In the texture nothing is continuous, and distances are others: that is what it is there to show.
     if state.look.wound.distance == Distance::Surface || patch.density == 0.0 {
         let mesh = &state.mesh;
-        checks.extend([spans(cut, job, painted), seams(painted), gathered(mesh, cut, painted)]);
+        checks.extend([
+            spans(cut, job, painted),
+            seams(painted),
+            gathered(mesh, cut, painted),
+            distant(mesh, cut, painted),
+        ]);
     }
     checks
 }
@@ -111,6 +117,33 @@ fn gathered(mesh: &Mesh, cut: &Cut, painted: &Painted) -> Check {
     }
 }
 
+/// No way on the surface is shorter than the straight one: what lies far from the line is not painted as if it were near. Unrolled curved skin may be
+/// a little nearer than it is, so half counts. The value is the largest share that is missing.
+fn distant(mesh: &Mesh, cut: &Cut, painted: &Painted) -> Check {
+    let job = &painted.painting.paint;
+    let (length, half) = (f64::from(job.length), 0.5 * f64::from(job.height));
+    let line: Vec<DVec3> = cut.formed.chain.points.iter().map(|p| p.position).collect();
+    let straight = |p: DVec3| least(line.windows(2).map(|w| distance_to_segment(p, w[0], w[1])));
+    let mut worst = (0.0, FaceId(0));
+    for (face, corners) in job.faces.iter().zip(&painted.corners) {
+        for (corner, at) in corners.iter().zip(face.at) {
+            let Corner::Node(node) = corner else { continue };
+            let away = straight(mesh.position(*node));
+            let laid = at.as_dvec2().distance(DVec2::new(f64::from(at.x).clamp(0.0, length), 0.0));
+            let missing = (away.min(half) - laid) / half;
+            if missing > worst.0 {
+                worst = (missing, FaceId(face.face));
+            }
+        }
+    }
+    let check = Check::at_most("distant", worst.0, 0.5);
+    if check.ok { check } else { check.culprits([worst.1]) }
+}
+
+fn least(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(f64::INFINITY, f64::min)
+}
+
 /// A painted face that cannot be reached from the line over painted faces, or that is no skin.
 fn unconnected(mesh: &Mesh, cut: &Cut, found: &FxHashSet<FaceId>) -> Option<FaceId> {
     let mut reached: FxHashSet<FaceId> = FxHashSet::default();
@@ -138,7 +171,8 @@ fn left_out(
         let j = (i + 1) % 3;
         let beyond = beyond(mesh, cut, FaceId(face.face), [corners[i], corners[j]])?;
         let [a, b] = [face.at[i], face.at[j]].map(|at| at.as_dvec2());
-        (!found.contains(&beyond) && segment_distance(a, b, length) < radius).then_some(beyond)
+        let is_there = found.contains(&beyond) || painted.refused.binary_search(&beyond).is_ok();
+        (!is_there && segment_distance(a, b, length) < radius).then_some(beyond)
     });
     missing.next()
 }

@@ -1,0 +1,96 @@
+//! The picture: diffuse and specular light together, clamped, as sRGB bytes, before the background.
+
+use wgpu::{BindingResource, ShaderStages};
+
+use super::bindings::{Bound, group, layout, pipeline_layout, view};
+use super::device::Device;
+use super::pipelines::{Cache, Drawing, cleared};
+use super::record::{Words, bytes, record};
+use super::store::Store;
+use super::targets::{BYTES, Targets};
+use super::timing::Recorder;
+use crate::canvas::RenderError;
+use crate::canvas::frame::FrameJob;
+use crate::canvas::look::Background;
+
+record! {
+    /// What is behind the model.
+    Backdrop {
+        color: [f32; 4],
+    }
+}
+
+/// Composes pictures.
+#[derive(Debug)]
+pub(crate) struct ComposePass {
+    layout: wgpu::BindGroupLayout,
+    whole: wgpu::PipelineLayout,
+    module: wgpu::ShaderModule,
+    /// By whether there is specular light.
+    pipelines: Cache<bool>,
+}
+
+impl ComposePass {
+    /// Compiles it.
+    pub(crate) fn new(device: &Device) -> Result<Self, RenderError> {
+        let least = Bound::Uniform(4 * Backdrop::COUNT as u64);
+        let bound = [least, Bound::Texture, Bound::Texture, Bound::Texture];
+        let layout = layout(device, "compose", ShaderStages::FRAGMENT, &bound)?;
+        let whole = pipeline_layout(device, "compose", &[&layout])?;
+        Ok(Self { layout, whole, module: device.shader("compose")?, pipelines: Cache::new() })
+    }
+
+    /// Composes a picture.
+    pub(crate) fn draw(
+        &self,
+        recorder: &mut Recorder<'_>,
+        backdrop: &mut Store,
+        targets: &Targets,
+        job: &FrameJob<'_>,
+    ) -> Result<(), RenderError> {
+        let device = recorder.device();
+        let color = background(job.look.background).map(|byte| f32::from(byte) / 255.0);
+        let backdrop = backdrop.put(device, &bytes(&[Backdrop { color }]))?;
+        let (diffuse, picture) = (view(&targets.diffuse), view(&targets.picture));
+        let resources = [
+            backdrop.as_entire_binding(),
+            BindingResource::TextureView(&diffuse),
+            BindingResource::TextureView(&targets.specular),
+            BindingResource::TextureView(&targets.distance),
+        ];
+        let group = group(device, "compose", &self.layout, &resources)?;
+        let pipeline = self.pipelines.get(job.switches.specular, |specular| self.make(device, *specular))?;
+        recorder.pass("compose", |encoder, stamps| {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("compose"),
+                color_attachments: &[Some(cleared(&picture, 0.0))],
+                timestamp_writes: stamps.whole(),
+                ..wgpu::RenderPassDescriptor::default()
+            });
+            pass.set_pipeline(&pipeline);
+            pass.set_bind_group(0, &group, &[]);
+            pass.draw(0..3, 0..1);
+        })
+    }
+
+    fn make(&self, device: &Device, specular: bool) -> Result<wgpu::RenderPipeline, RenderError> {
+        Drawing {
+            label: "compose",
+            layout: &self.whole,
+            module: &self.module,
+            vertex: "cover",
+            fragment: Some("compose"),
+            targets: &[Some(BYTES)],
+            constants: &[("SPECULAR", f64::from(u8::from(specular)))],
+            attributes: &[],
+        }
+        .make(device)
+    }
+}
+
+/// The texel behind the model.
+pub(crate) fn background(Background([r, g, b]): Background) -> [u8; 4] {
+    // A NaN counts as 0, which max() makes of it.
+    let byte = |channel: f32| (255.0 * channel.max(0.0).min(1.0) + 0.5) as u8;
+    [byte(r), byte(g), byte(b), 255]
+}
