@@ -70,7 +70,9 @@ pub(super) fn gauge_with(
     let found = find(paths, options.filter.as_deref());
     let file = match file(&found) {
         Ok(file) => file,
-        Err(why) => return GaugeReport { errors: [found.errors, vec![why]].concat(), ..GaugeReport::default() },
+        Err(why) => {
+            return GaugeReport { errors: [found.errors, vec![why]].concat(), ..GaugeReport::default() };
+        }
     };
     let look = |_: usize, path: &Path| Look::at(path, studio, open);
     let mut whole = Look { errors: found.errors, ..Look::default() };

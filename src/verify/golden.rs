@@ -130,7 +130,9 @@ impl Stored {
         }
         // What nobody rendered cannot be compared, and what comes from a device goes by its gates.
         let rendered = found.adapter.is_some();
-        facts.retain(|fact| fact.place != Place::Frame || rendered && (found.is_exact() || !fact.is_image_digest()));
+        facts.retain(|fact| {
+            fact.place != Place::Frame || rendered && (found.is_exact() || !fact.is_image_digest())
+        });
         self.checkpoints.insert(name.into(), facts);
     }
 

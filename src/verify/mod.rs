@@ -14,8 +14,8 @@
 //! **Reports.** [`VerifyReport`] is plain data; as a page ([`html()`]), as [`junit()`] XML, and as a [`Blob`] that holds all that the page shows, so that
 //! [`merge()`] can make one report of the shards of several machines.
 
-mod blob;
 mod bless;
+mod blob;
 mod compare;
 mod detail;
 mod diff;
@@ -38,8 +38,8 @@ mod values;
 #[cfg(test)]
 mod tests;
 
-pub use blob::Blob;
 pub use bless::{BlessOptions, BlessReport, Blessed, Change, bless};
+pub use blob::Blob;
 pub use compare::Divergence;
 pub use detail::{Detail, EventDetail, PictureDetail, StageDetail};
 pub use diff::{Diff, Side, diff};

@@ -1,6 +1,6 @@
 //! Many recordings: found, replayed several at a time, and reported in the order of their paths.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -136,15 +136,14 @@ impl Recordings {
     /// How pictures of an adapter are judged, by the file of gates that a recording goes by. Without a file no adapter is known; a damaged one is an
     /// error, and counts as none.
     pub(super) fn rules(&mut self, adapter: &Adapter) -> BTreeMap<PathBuf, Rules> {
+        let files: BTreeSet<PathBuf> = self.recordings.iter().map(|r| home::gates(r)).collect();
         let mut rules = BTreeMap::new();
-        for file in self.recordings.iter().map(|recording| home::gates(recording)) {
-            if !rules.contains_key(&file) {
-                let gates = read_gates(&file).unwrap_or_else(|why| {
-                    self.errors.push(why);
-                    GatesFile::default()
-                });
-                rules.insert(file, Rules::new(&gates, adapter));
-            }
+        for file in files {
+            let gates = read_gates(&file).unwrap_or_else(|why| {
+                self.errors.push(why);
+                GatesFile::default()
+            });
+            rules.insert(file, Rules::new(&gates, adapter));
         }
         rules
     }

@@ -82,10 +82,65 @@ fn goldens_are_missing_then_blessed_then_verified() {
     );
     assert!(answer(&["bless", &home, "--reason", "a test"]).contains("1 goldens written"));
     assert!(answer(&["bless", &home, "--reason", "a test"]).contains("0 goldens written, 1 as they were"));
-    assert!(answer(&["verify", &home]).contains("1 recordings: 1 verified, 0 failed"));
+    assert!(
+        answer(&["verify", &home, "--renderer", "reference"]).contains("1 recordings: 1 verified, 0 failed")
+    );
     let report = json(&lancet(&["verify", &home, "--json", "-"]).1);
     assert_eq!(report["recordings"][0]["verdict"], "verified");
     assert!(complaint(&["bless", &home]).contains("--reason"));
+}
+
+#[test]
+fn pictures_are_blessed_verified_and_shown() {
+    let (folder, home, _) = recordings();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    answer(&["bless", &home, "--reason", "a test"]);
+    let text = std::fs::read_to_string(at("golden/square/cut.txt")).unwrap();
+    assert!(text.contains("renderer = reference\n") && text.contains("frame width = 100\n"), "{text}");
+    let golden = std::fs::read(at("golden/square/cut.png")).unwrap();
+    assert!(golden.starts_with(b"\x89PNG"));
+    let (junit, page) = (at("junit.xml"), at("page"));
+    let verify = ["verify", &home, "--renderer", "reference"];
+    let out = answer(&[&verify[..], &["--junit", &junit, "--html", &page]].concat());
+    assert!(out.contains("1 pictures by CPU reference"), "{out}");
+    assert!(
+        std::fs::read_to_string(junit).unwrap().contains("<testcase classname=\"lancet\" name=\"square\"")
+    );
+    assert!(std::fs::read_to_string(at("page/index.html")).unwrap().contains("\"verdict\":\"equal\""));
+    assert!(
+        answer(&[&verify[..], &["--no-skip"]].concat()).contains("1 verified"),
+        "nothing depends on skips"
+    );
+    std::fs::write(at("golden/square/cut.png"), &golden[..50]).unwrap();
+    let (status, out, _) = lancet(&verify);
+    assert!(status == Status::Diverged && out.contains("cut.png: damaged: "), "{out}");
+    let gates = ["bless", &home, "--gates", "--renderer", "reference", "--reason", "a test"];
+    let (status, out, _) = lancet(&gates);
+    assert!(status == Status::Failed && out.contains("the CPU reference is exact"), "{out}");
+}
+
+#[test]
+fn shards_are_merged() {
+    let (folder, home, packed) = recordings();
+    std::fs::copy(&packed, folder.path().join("recordings/twin.lancet")).unwrap();
+    answer(&["bless", &home, "--reason", "a test"]);
+    let blob = |k: &str| {
+        let file = folder.path().join(format!("blob-{k}.json")).to_str().unwrap().to_owned();
+        let shard = format!("{k}/2");
+        let verify = ["verify", &home, "--renderer", "reference", "--shard", &shard, "--blob", &file];
+        assert!(answer(&verify).contains(&format!("shard {k} of 2: 1 recordings: 1 verified")));
+        file
+    };
+    let (one, two) = (blob("1"), blob("2"));
+    assert!(answer(&["merge", &two, &one]).contains("2 recordings: 2 verified, 0 failed"));
+    let (status, out, _) = lancet(&["merge", &one, &two, "--json", "-"]);
+    let report = json(&out);
+    assert_eq!((status, &report["recordings"][1]["recording"]), (Status::Verified, &"twin".into()));
+    assert!(complaint(&["merge", &one]).contains("missing of 2 shards: 2"));
+    assert!(complaint(&["merge", &one, &two, &one]).contains("shard 1 is in"));
+    assert!(complaint(&["merge", &packed]).contains("square.lancet: no blob of verify: "));
+    assert!(complaint(&["verify", &home, "--shard", "3/2"]).contains("not K/N, such as 2/7"));
+    assert!(complaint(&["verify", &home, "--shard", "1/2", "--fail-fast"]).contains("cannot be used with"));
 }
 
 #[test]

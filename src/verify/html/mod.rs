@@ -22,7 +22,8 @@ pub fn html(blob: &Blob) -> String {
 pub(super) fn base64(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
     for group in bytes.chunks(3) {
-        let bits = group.iter().fold(0_u32, |bits, byte| bits << 8 | u32::from(*byte)) << (8 * (3 - group.len()));
+        let bits =
+            group.iter().fold(0_u32, |bits, byte| bits << 8 | u32::from(*byte)) << (8 * (3 - group.len()));
         for place in 0..4 {
             let digit = DIGITS[(bits >> (18 - 6 * place)) as usize & 63];
             text.push(if place > group.len() { '=' } else { digit.into() });
@@ -53,7 +54,8 @@ mod tests {
         let page = html(&blob);
         let tags = |text: &str| (text.matches('<').count(), text.matches("</script").count());
         assert_eq!(tags(&page), tags(PAGE));
-        let data = page.split_once("type=\"application/json\">").and_then(|(_, rest)| rest.split_once("</script>"));
+        let data =
+            page.split_once("type=\"application/json\">").and_then(|(_, rest)| rest.split_once("</script>"));
         let data = data.map(|(data, _)| Blob::parse(data.as_bytes()));
         assert_eq!(data, Some(Ok(blob)), "and it is all there");
     }

@@ -13,8 +13,8 @@
 
 use std::fmt;
 
-use image_compare::rgb_hybrid_compare;
 use image_compare::prelude::RgbImage;
+use image_compare::rgb_hybrid_compare;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -84,7 +84,10 @@ impl ImageReport {
         }
         let missed = self.proof.missed();
         lines.extend(missed.map(|defect| {
-            format!("picture {}: insensitive: a planted {defect} passes ({})", self.checkpoint, self.proven_by)
+            format!(
+                "picture {}: insensitive: a planted {defect} passes ({})",
+                self.checkpoint, self.proven_by
+            )
         }));
         lines
     }

@@ -136,7 +136,10 @@ fn each_gate_catches_its_defect_alone() {
     assert_eq!(alone(Distance { tile: floor.tile, ..open }, Defect::Crack), caught(Metric::Tile));
     assert_eq!(alone(Distance { outliers: floor.outliers, ..open }, Defect::Hole), caught(Metric::Outliers));
     assert_eq!(alone(Distance { tone: floor.tone, ..open }, Defect::Tone), caught(Metric::Tone));
-    assert_eq!(alone(Distance { structure: floor.structure, ..open }, Defect::Shift), caught(Metric::Structure));
+    assert_eq!(
+        alone(Distance { structure: floor.structure, ..open }, Defect::Shift),
+        caught(Metric::Structure)
+    );
     DEFECTS.into_iter().for_each(|defect| assert_eq!(alone(open, defect), None, "{defect}"));
     let proof = prove(&golden, &skin(&golden), &open);
     assert_eq!(proof.missed().collect::<Vec<_>>(), DEFECTS, "an open gate proves nothing");
@@ -233,7 +236,10 @@ fn the_reference_is_exact_and_proves_with_the_general_gate() {
     };
     let exact = Rules::new(&GatesFile::default(), &adapter("CPU", Kind::Reference));
     let report = exact.judge(&frame(golden.clone()), Some(&golden));
-    assert_eq!((report.verdict, report.problems().len(), report.proof.planted.len()), (ImageVerdict::Equal, 0, 4));
+    assert_eq!(
+        (report.verdict, report.problems().len(), report.proof.planted.len()),
+        (ImageVerdict::Equal, 0, 4)
+    );
     let mut other = golden.clone();
     other.texels[96 * 64][0] ^= 1;
     let report = exact.judge(&frame(other.clone()), Some(&golden));

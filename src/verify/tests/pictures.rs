@@ -24,7 +24,8 @@ struct Painter {
 fn painter(kind: Kind, name: &str, spoil: Spoil) -> Arc<dyn Studio> {
     let text = |text: &str| String::from(text);
     let shaders = if kind == Kind::Gpu { "5ade" } else { "" };
-    let adapter = Adapter { kind, name: name.into(), driver: text(""), backend: text(""), shaders: text(shaders) };
+    let adapter =
+        Adapter { kind, name: name.into(), driver: text(""), backend: text(""), shaders: text(shaders) };
     Arc::new(Painter { adapter, spoil, lost: false })
 }
 
@@ -143,16 +144,24 @@ fn a_checkpoint_has_a_picture_beside_its_text() {
     for line in ["reason = a test", "renderer = reference", "adapter = CPU reference", "shaders = none"] {
         assert!(text.lines().any(|l| l == line), "{line} is not in {text}");
     }
-    for fact in ["frame width = 128", "frame height = 96", &format!("frame digest image = {}", picture.digest())] {
+    for fact in
+        ["frame width = 128", "frame height = 96", &format!("frame digest image = {}", picture.digest())]
+    {
         assert!(text.lines().any(|l| l == fact), "{fact} is not in {text}");
     }
     assert!(!suite.get("golden/wound/square-0/_run.txt").contains("renderer"));
     let report = suite.verify_by(&reference());
     assert_eq!(report.exit_code(), 0, "{report:?}");
     let image = &only(&report).images[0];
-    assert_eq!((image.verdict, image.size, image.checkpoint.as_str()), (ImageVerdict::Equal, [128, 96], "cut"));
+    assert_eq!(
+        (image.verdict, image.size, image.checkpoint.as_str()),
+        (ImageVerdict::Equal, [128, 96], "cut")
+    );
     assert_eq!(image.proof.planted.len(), 4, "{image:?}");
-    assert_eq!(report.skips.iter().map(|s| (s.pass.as_str(), s.times_skipped())).collect::<Vec<_>>(), [("shadow", 1), ("skin", 0)]);
+    assert_eq!(
+        report.skips.iter().map(|s| (s.pass.as_str(), s.times_skipped())).collect::<Vec<_>>(),
+        [("shadow", 1), ("skin", 0)]
+    );
 }
 
 #[test]
@@ -183,7 +192,11 @@ fn a_device_passes_within_its_gate_and_fails_beyond_it() {
     assert!(!suite.at("golden/gates.json").exists(), "a dry run writes nothing");
     assert_eq!(suite.gauge_by(&near, false).adapter, "llvmpipe*");
     let report = suite.verify_by(&near);
-    assert_eq!((report.exit_code(), only(&report).images[0].verdict), (0, ImageVerdict::Within), "{report:?}");
+    assert_eq!(
+        (report.exit_code(), only(&report).images[0].verdict),
+        (0, ImageVerdict::Within),
+        "{report:?}"
+    );
     assert_eq!(report.orphans.len(), 0, "gates are no orphan");
     let holed = gpu(|mut image| {
         (40..52).for_each(|y| image.texels[y * 128 + 60..y * 128 + 72].fill([0, 0, 0, 255]));
@@ -212,7 +225,10 @@ fn gates_that_would_let_a_defect_pass_are_not_written() {
     let missing = Suite::new(&[]);
     missing.put("recordings/a.lancet", &packed(SQUARE));
     let missing = missing.gauge_by(&gpu(|image| image), false);
-    assert!(missing.exit_code() == 2 && missing.errors.iter().any(|e| e.ends_with("cut.png: missing")), "{missing:?}");
+    assert!(
+        missing.exit_code() == 2 && missing.errors.iter().any(|e| e.ends_with("cut.png: missing")),
+        "{missing:?}"
+    );
 }
 
 #[test]
@@ -221,7 +237,11 @@ fn damaged_gates_are_an_error_and_hide_nothing() {
     suite.put("golden/gates.json", b"{\n\"version\": 1}");
     let report = suite.verify_by(&reference());
     assert_eq!((report.exit_code(), only(&report).verdict), (2, Verdict::Verified));
-    assert!(report.errors[0].contains("gates.json: missing field `adapters` at line 2"), "{:?}", report.errors);
+    assert!(
+        report.errors[0].contains("gates.json: missing field `adapters` at line 2"),
+        "{:?}",
+        report.errors
+    );
 }
 
 #[test]
@@ -238,7 +258,10 @@ fn every_fault_of_a_picture_is_named() {
     assert!(fault(b"").contains("cut.png: damaged: "));
     let png = |image: &Image| assets::write_png(image).expect("a file");
     let other = fault(&png(&noise(&face([128, 96]), 1, 2)));
-    assert!(other.ends_with("cut.png: damaged: it is not the picture that the text beside it tells of"), "{other}");
+    assert!(
+        other.ends_with("cut.png: damaged: it is not the picture that the text beside it tells of"),
+        "{other}"
+    );
     let small = face([64, 48]);
     suite.put(TEXT, suite.get(TEXT).replace(&face([128, 96]).digest(), &small.digest()).as_bytes());
     assert!(fault(&png(&small)).ends_with("cut.png: mis-sized: it is 64 x 48, and the frame 128 x 96"));
@@ -362,6 +385,8 @@ fn shards_that_do_not_belong_together_are_not_merged() {
     odd.1.report.shard.as_mut().expect("a shard").index = 9;
     assert!(error(vec![odd]).contains("no such shard"));
     assert!(Blob::parse(b"{}").is_err_and(|e| e.contains("missing field")));
-    let newer = String::from_utf8(shard("1/2").1.text()).expect("text").replace("\"lancet_blob\":1", "\"lancet_blob\":2");
+    let newer = String::from_utf8(shard("1/2").1.text())
+        .expect("text")
+        .replace("\"lancet_blob\":1", "\"lancet_blob\":2");
     assert_eq!(Blob::parse(newer.as_bytes()), Err("a blob of version 2, not 1".into()));
 }
