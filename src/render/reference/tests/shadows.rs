@@ -29,10 +29,10 @@ fn a_triangle_casts_its_shadow_on_a_wall() {
         };
         let inside = volume(a, b, c).min(volume(b, c, a)).min(volume(c, a, b));
         let part = shaded.diffuse[at][0] / bare.diffuse[at][0];
-        if inside > 0.05 {
+        if inside > 0.1 {
             assert_eq!(part, 0.0, "in the shadow, at {point}");
             dark += 1;
-        } else if inside < -0.05 {
+        } else if inside < -0.1 {
             assert!((part - 1.0).abs() < 1e-5, "out of it, at {point}: {part}");
             bright += 1;
         }
