@@ -9,7 +9,7 @@ use glam::Vec2;
 use rayon::prelude::*;
 
 use super::spans::{Window, copies, place, spans};
-use crate::mesh::{Mesh, Surface};
+use crate::mesh::{Face, Mesh, Surface};
 
 /// Faces that one task works through.
 const BLOCK: usize = 4096;
@@ -21,7 +21,8 @@ pub struct Charts(Vec<[Vec2; 3]>);
 impl Charts {
     /// Those of a mesh.
     pub fn of(mesh: &Mesh) -> Self {
-        let skin = mesh.faces().iter().filter(|face| face.surface == Surface::Skin);
+        let textured = |face: &&Face| mesh.is_textured() && face.surface == Surface::Skin;
+        let skin = mesh.faces().iter().filter(textured);
         Self(skin.map(|face| face.vertices.map(|v| mesh.vertex(v).uv)).collect())
     }
 

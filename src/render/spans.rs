@@ -95,7 +95,8 @@ pub fn place(uv: [Vec2; 3], size: [u32; 2]) -> Option<Corners> {
 pub fn copies(corners: Corners, size: [u32; 2]) -> impl Iterator<Item = Corners> {
     let maps = size.map(|side| i64::from(side) * PARTS);
     let [least, most] = bounds(corners);
-    let [across, down] = [0, 1].map(|k| least[k].div_euclid(maps[k])..=most[k].div_euclid(maps[k]));
+    let map_of = |v: i64, side: i64| if (0..side).contains(&v) { 0 } else { v.div_euclid(side) };
+    let [across, down] = [0, 1].map(|k| map_of(least[k], maps[k])..=map_of(most[k], maps[k]));
     down.flat_map(move |j| across.clone().map(move |i| shifted(corners, [-i * maps[0], -j * maps[1]])))
 }
 
@@ -140,10 +141,14 @@ impl Side {
     #[inline]
     fn clip(&self, row: i64, [from, to]: [i64; 2]) -> [i64; 2] {
         let rest = self.b * row + self.c;
+        let holds = |column: i64| self.a * column + rest >= 0;
+        // Most sides cut nothing off a small face's row, and need no division.
         match self.a {
+            0.. if holds(from) => [from, to],
+            ..0 if holds(to - 1) => [from, to],
             // The least i with a i ≥ −rest.
             1.. => [from.max(-rest.div_euclid(self.a)), to],
-            0 => [from, if rest >= 0 { to } else { from }],
+            0 => [from, from],
             // The greatest with −a i ≤ rest.
             _ => [from, to.min(rest.div_euclid(-self.a) + 1)],
         }

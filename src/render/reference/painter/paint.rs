@@ -3,6 +3,8 @@
 //! Two steps for each tile, tiles side by side: first (s, d) of every texel, each from the one triangle that has it; then what they
 //! do to the texel. What a tile becomes depends on no other tile.
 
+use std::array::from_fn;
+
 use rayon::prelude::*;
 
 use super::journal::Tile;
@@ -118,16 +120,14 @@ struct Brush<'a> {
 impl Brush<'_> {
     /// What a tile becomes; `None` if it stays as it is.
     fn apply(&self, index: u32, coordinates: &Coordinates, ground: Ground<'_>) -> Option<Tile> {
-        let mut tile = Tile::read(index, ground.color, ground.discolor);
-        let mut changed = false;
-        let texels = tile.color.iter_mut().zip(&mut tile.discolor).zip(&coordinates.at);
-        for ((color, discolor), at) in texels {
-            let Some(at) = at else { continue };
-            let after = (self.color(*at, *color), self.discolor(*at, *discolor));
-            changed |= after != (*color, *discolor);
-            (*color, *discolor) = after;
-        }
-        changed.then_some(tile)
+        let before = Tile::read(index, ground.color, ground.discolor);
+        let mut tile = before.clone();
+        let used: Vec<(usize, [f32; 2])> =
+            coordinates.at.iter().enumerate().filter_map(|(k, at)| Some((k, (*at)?))).collect();
+        used.iter().for_each(|(k, at)| tile.color[*k] = self.color(*at, tile.color[*k]));
+        let spots: Vec<Spot> = used.iter().filter_map(|(k, at)| self.spot(*k, *at)).collect();
+        spots.chunks(LANES).for_each(|spots| self.discolor(spots, &mut tile.discolor));
+        (tile != before).then_some(tile)
     }
 
     /// The patch over a colour.
@@ -145,35 +145,47 @@ impl Brush<'_> {
         [over(0, r), over(1, g), over(2, b), under[3]]
     }
 
-    /// The stronger of a discoloration and the one that is there.
-    fn discolor(&self, [s, d]: [f32; 2], there: [u8; 4]) -> [u8; 4] {
-        let PaintJob { length, height, .. } = *self.job;
+    /// What the discoloration is at a texel but for its noise; `None` beyond it.
+    fn spot(&self, texel: usize, [s, d]: [f32; 2]) -> Option<Spot> {
+        let PaintJob { length, height, noise_scale, offset, .. } = *self.job;
         let t = 2.0 * (s / length).clamp(0.0, 1.0) - 1.0;
         let radius = 0.5 * height * (1.0 - 0.5 * t * t);
         let beyond = (-s).max(s - length).max(0.0);
         let distance = (beyond * beyond + d * d).sqrt();
         let most = 1.0 - distance / (2.0 * radius);
-        // Of a NaN it is not known to be more.
-        let reached = most > 0.0;
-        if !reached {
-            return there;
-        }
-        let alpha = byte(self.strength([s, d], most, 1.1 - distance / radius));
-        let [r, g, b] = self.job.factor.map(|f| byte(0.5 * f));
-        if alpha > there[3] { [r, g, b, alpha] } else { there }
+        let core = (1.1 - distance / radius).max(0.0);
+        let noise_at = [noise_scale * s + offset[0], noise_scale * d + offset[1]];
+        // A NaN is not more.
+        (most > 0.0).then_some(Spot { texel, noise_at, most, core })
     }
 
-    /// α of the discoloration: noise up to `most`, and `core` more.
-    fn strength(&self, [s, d]: [f32; 2], most: f32, core: f32) -> f32 {
-        let core = core.max(0.0);
-        if core >= 1.0 {
-            // Whatever the noise adds.
-            return 1.0;
+    /// Puts a discoloration where it is stronger than what is there.
+    fn discolor(&self, spots: &[Spot], texels: &mut [[u8; 4]]) {
+        let at = |k: usize| spots[k.min(spots.len() - 1)].noise_at;
+        let noises = fbm(from_fn::<_, LANES, _>(at), &self.job.noise);
+        let [r, g, b] = self.job.factor.map(|f| byte(0.5 * f));
+        for (spot, noise) in spots.iter().zip(noises) {
+            let alpha = byte((noise.max(0.0).min(spot.most) + spot.core).min(1.0));
+            let texel = &mut texels[spot.texel];
+            if alpha > texel[3] {
+                *texel = [r, g, b, alpha];
+            }
         }
-        let (scale, [ox, oy]) = (self.job.noise_scale, self.job.offset);
-        let noise = fbm([scale * s + ox, scale * d + oy], &self.job.noise);
-        (noise.max(0.0).min(most) + core).min(1.0)
     }
+}
+
+/// Texels whose noise is looked up at once.
+const LANES: usize = 8;
+
+/// A texel that is discoloured.
+struct Spot {
+    /// Its place in the tile.
+    texel: usize,
+    noise_at: [f32; 2],
+    /// What the noise may add to α at most.
+    most: f32,
+    /// α without it.
+    core: f32,
 }
 
 /// The patch between its four nearest texels, in 1/255.
