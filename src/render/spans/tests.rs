@@ -1,3 +1,5 @@
+//! Coverage against the rule as it is usually written, texel by texel.
+
 use glam::vec2;
 
 use super::*;
@@ -69,7 +71,8 @@ fn faces_that_share_sides_cover_every_texel_once() {
                 let (i, j) = (k % 9, k / 9);
                 let edge = i % 8 == 0 || j % 8 == 0;
                 let by = if edge { [0, 0] } else { [nudge(i), nudge(j)] };
-                [i * step + by[0], j * step + by[1]]
+                // From half a texel on, so that the grid's own lines go through centres.
+                [i * step + by[0] + PARTS / 2, j * step + by[1] + PARTS / 2]
             })
             .collect();
         let quads = (0..cells * cells).map(|k| k / cells * 9 + k % cells);
