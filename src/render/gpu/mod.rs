@@ -55,6 +55,7 @@ use painter::Painter;
 pub struct Gpu {
     device: Arc<Device>,
     passes: Arc<Passes>,
+    painting: Arc<painter::Passes>,
 }
 
 impl Gpu {
@@ -66,7 +67,7 @@ impl Gpu {
     /// On a device that is open already.
     pub fn on(device: Arc<Device>) -> Result<Self, RenderError> {
         let passes = Arc::new(Passes::new(&device)?);
-        Ok(Self { device, passes })
+        Ok(Self { device, passes, painting: Arc::default() })
     }
 }
 
@@ -77,7 +78,7 @@ impl Studio for Gpu {
 
     fn open(&self, maps: Arc<Maps>, mesh: &Mesh) -> Result<Box<dyn Renderer>, RenderError> {
         let (device, passes) = (self.device.clone(), self.passes.clone());
-        let painter = Painter::new(device.clone(), &maps, mesh)?;
+        let painter = Painter::sharing(device.clone(), &self.painting, &maps, mesh)?;
         let frames = Frames::new(device.clone(), passes, &maps)?;
         Ok(Box::new(OnGpu { device, painter, frames }))
     }

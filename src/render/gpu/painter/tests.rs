@@ -8,9 +8,10 @@ use glam::{Vec2, vec2};
 use super::journal::blocks;
 use super::*;
 use crate::canvas::image::Image;
+use crate::render::gpu::tests::kit::device;
 use crate::render::layout::tiles_of;
 use crate::report::Check;
-use kit::{HERE, both, cut, device, gap, moved, painters, sheet, touched};
+use kit::{HERE, both, cut, gap, moved, painters, sheet, touched};
 
 /// Part of the texels that may differ by more than one: a bit of noise near a layer's edge may put a texel on its other side.
 const OUTLIERS_PER_MILLE: usize = 1;

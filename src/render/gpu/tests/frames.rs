@@ -38,10 +38,15 @@ fn combinations() -> Vec<Switches> {
     [all(true), all(false)].into_iter().chain(but(true)).chain(but(false)).collect()
 }
 
+/// A tenth of a byte on average, and two pixels of a thousand. On lavapipe no channel is off by more than one: it cuts half floats off.
+fn is_close(gap: &Gap) -> bool {
+    gap.mean < 0.1 && gap.outliers < 0.002
+}
+
 fn assert_close(what: &str, gap: &Gap) {
     eprintln!("{what}: {gap:?}");
     assert!(gap.mean < 0.5, "{what}: {gap:?}");
-    assert!(gap.outliers < 0.005, "{what}: {gap:?}");
+    assert!(is_close(gap), "{what}: {gap:?}");
 }
 
 #[test]
@@ -66,7 +71,7 @@ fn with_any_switch_a_frame_is_the_reference_s() {
     for switches in combinations() {
         scene.switches = switches;
         let gap = gap(&ours.frame(&scene).image, &scene.reference().image);
-        assert!(gap.mean < 0.5 && gap.outliers < 0.01, "{switches:?}: {gap:?}");
+        assert!(is_close(&gap), "{switches:?}: {gap:?}");
     }
 }
 

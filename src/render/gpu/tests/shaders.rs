@@ -6,6 +6,7 @@ use naga::{AddressSpace, Module, TypeInner};
 use crate::render::gpu::shaders::{SHADERS, named};
 use crate::render::gpu::{compose, scatter, shadow, tiles, uniforms};
 
+/// A shader, parsed.
 fn parsed(name: &str) -> Module {
     let text = named(name).unwrap_or_else(|| panic!("no shader {name}")).text();
     naga::front::wgsl::parse_str(&text)
@@ -67,12 +68,20 @@ fn every_struct_lies_as_the_shader_reads_it() {
         ("scatter", scatter::Reach::table()),
         ("compose", compose::Backdrop::table()),
     ];
-    for (shader, (name, fields)) in &tables {
+    assert_laid_out(&tables, &["shadow", "skin", "tiles", "scatter", "compose"]);
+}
+
+/// A shader, and a record's name and fields.
+pub(crate) type Told = (&'static str, (&'static str, Vec<(&'static str, usize)>));
+
+/// Every one of these structs lies as its shader reads it, and no other struct comes into these shaders from outside.
+pub(crate) fn assert_laid_out(tables: &[Told], shaders: &[&str]) {
+    for (shader, (name, fields)) in tables {
         let wanted = of_naga(&parsed(shader), name).unwrap_or_else(|| panic!("no struct {name} in {shader}"));
         assert_eq!(of_rust(fields), wanted, "{name} in {shader}");
     }
-    for shader in ["shadow", "skin", "tiles", "scatter", "compose"] {
-        let known = |name: &str| tables.iter().any(|(of, (known, _))| *of == shader && *known == name);
+    for shader in shaders {
+        let known = |name: &str| tables.iter().any(|(_, (known, _))| *known == name);
         let bound = bound_structs(&parsed(shader));
         // Two draws: a struct of nothing but others.
         let missing: Vec<_> = bound.iter().filter(|name| !known(name) && *name != "Draws").collect();

@@ -1,10 +1,9 @@
 //! A sheet of two charts with a seam in its middle, cuts along it, and both painters.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use glam::{DVec3, Vec2, vec2};
 
-use crate::canvas::RenderError;
 use crate::canvas::image::{Image, MapId, Maps};
 use crate::canvas::job::{PaintFace, PaintJob, Painting, PatchJob};
 use crate::canvas::look::{Fbm, Wound};
@@ -13,24 +12,6 @@ use crate::mesh::build::IndexedMesh;
 use crate::render::gpu::device::Device;
 use crate::render::gpu::painter::Painter;
 use crate::render::reference::painter::Painter as Reference;
-
-/// The device, if there is one. Said to be skipped where there is none, and a failure where one is required.
-pub(super) fn device() -> Option<Arc<Device>> {
-    static DEVICE: OnceLock<Option<Arc<Device>>> = OnceLock::new();
-    let open = || match Device::open() {
-        Ok(device) => Some(Arc::new(device)),
-        Err(RenderError::NoAdapter(why)) => {
-            assert_ne!(std::env::var("LANCET_GPU").as_deref(), Ok("require"), "no adapter: {why}");
-            None
-        }
-        Err(other) => panic!("{other}"),
-    };
-    let device = DEVICE.get_or_init(open).clone();
-    if device.is_none() {
-        eprintln!("skipped: no adapter");
-    }
-    device
-}
 
 /// Quads along a side of a chart.
 const SIDE: u32 = 12;
@@ -48,7 +29,7 @@ fn uv(chart: u32, p: Vec2) -> Vec2 {
 
 /// Corners of the grid are moved aside, so that nothing lies on the texels' grid, but for those on borders.
 fn grid(i: u32, j: u32) -> Vec2 {
-    let aside = |k: u32, span: u32| if k % span == 0 { 0.0 } else { 0.3 };
+    let aside = |k: u32, span: u32| if k.is_multiple_of(span) { 0.0 } else { 0.3 };
     let wave = |k: u32| (k * 7 % 5) as f32 / 5.0 - 0.4;
     vec2(i as f32 + aside(i, SIDE) * wave(i + 3 * j), j as f32 + aside(j, SIDE) * wave(j + 2 * i))
         / SIDE as f32
