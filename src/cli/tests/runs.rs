@@ -74,7 +74,7 @@ fn a_replay_writes_its_mesh_and_its_trace() {
 #[test]
 fn goldens_are_missing_then_blessed_then_verified() {
     let (_folder, home, _) = recordings();
-    let (status, out, _) = lancet(&["verify", &home]);
+    let (status, out, _) = lancet(&["verify", &home, "--renderer", "reference"]);
     assert_eq!(status, Status::Diverged);
     assert!(out.contains("missing") && out.contains("1 recordings: 0 verified, 1 failed"), "{out}");
     assert!(
@@ -85,7 +85,7 @@ fn goldens_are_missing_then_blessed_then_verified() {
     assert!(
         answer(&["verify", &home, "--renderer", "reference"]).contains("1 recordings: 1 verified, 0 failed")
     );
-    let report = json(&lancet(&["verify", &home, "--json", "-"]).1);
+    let report = json(&lancet(&["verify", &home, "--renderer", "reference", "--json", "-"]).1);
     assert_eq!(report["recordings"][0]["verdict"], "verified");
     assert!(complaint(&["bless", &home]).contains("--reason"));
 }
@@ -147,7 +147,8 @@ fn shards_are_merged() {
 fn a_planted_defect_is_named() {
     let (_folder, home, _) = recordings();
     answer(&["bless", &home, "--reason", "a test"]);
-    let (status, out, _) = lancet(&["verify", &home, "--plant", "2.MC:nodes:n4:1"]);
+    let (status, out, _) =
+        lancet(&["verify", &home, "--renderer", "reference", "--plant", "2.MC:nodes:n4:1"]);
     assert_eq!(status, Status::Diverged);
     assert!(out.contains("event 2, stage MC, buffer nodes, element n4: expected ("), "{out}");
     assert!(complaint(&["verify", &home, "--plant", "2.MC"]).contains("EVENT.STAGE:BUFFER:ELEMENT:ULPS"));
@@ -159,7 +160,7 @@ fn an_unreadable_recording_does_not_hide_the_others() {
     answer(&["bless", &home, "--reason", "a test"]);
     let bytes = std::fs::read(&packed).unwrap();
     std::fs::write(folder.path().join("recordings/a.lancet"), &bytes[..100]).unwrap();
-    let (status, out, _) = lancet(&["verify", &home]);
+    let (status, out, _) = lancet(&["verify", &home, "--renderer", "reference"]);
     assert_eq!(status, Status::Failed);
     assert!(out.contains("1 verified, 0 failed, 1 unreadable") && out.contains("byte 100, frame 1"), "{out}");
 }
