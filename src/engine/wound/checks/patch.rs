@@ -2,7 +2,9 @@
 
 use glam::DVec2;
 
+use super::position_bound;
 use crate::engine::wound::patch::{Patch, WIDEST};
+use crate::engine::wound::pattern::altitude;
 use crate::engine::wound::state::{Cut, State};
 use crate::engine::wound::surface::SkinLink;
 use crate::geometry::double;
@@ -29,7 +31,8 @@ fn size(state: &State, cut: &Cut, patch: &Patch) -> Check {
     let skin: f64 = cut.links.iter().map(|link| link.length).sum();
     let texels = length(cut) * counted / skin;
     let [width, height] = patch.job.size.map(f64::from);
-    let slack = SIZE_ERROR * (1.0 + texels.abs());
+    let roundings: f64 = cut.links.iter().map(|link| rounding(state, link.face)).sum();
+    let slack = SIZE_ERROR * (1.0 + texels.abs()) + length(cut) * roundings / skin;
     let fits = match width {
         8.0 => texels <= 8.0 + slack,
         WIDEST => texels >= WIDEST - 1.0 - slack,
@@ -55,6 +58,15 @@ fn texels(mesh: &Mesh, cut: &Cut, link: &SkinLink, map: [u32; 2]) -> f64 {
     let [from, to] = [link.link, link.link + 1].map(|i| cut.formed.chain.points[i].position);
     let step = gradient(mesh, link.face, to - from) * DVec2::from(map.map(f64::from));
     step.length()
+}
+
+/// How many texels the rounding of a link's two ends may be: many on a sliver, over which the texture changes fast.
+fn rounding(state: &State, face: FaceId) -> f64 {
+    let map = DVec2::from(state.map_size.map(f64::from));
+    let uv = state.mesh.face(face).vertices.map(|v| state.mesh.vertex(v).uv.as_dvec2() * map);
+    let widest = uv[0].distance(uv[1]).max(uv[1].distance(uv[2])).max(uv[2].distance(uv[0]));
+    // Where the texture is one point there is no rounding, however thin the face.
+    (2.0 * position_bound(state) * widest / altitude(state.mesh.triangle(face))).max(0.0)
 }
 
 /// What a step in space along a face is in its texture.
