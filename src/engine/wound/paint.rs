@@ -40,7 +40,7 @@ pub struct Painted {
     pub corners: Vec<[Corner; 3]>,
     /// Nodes at which fronts meet.
     pub torn: Vec<NodeId>,
-    /// Faces within the radius that are left out, since a tear would have folded them back over others.
+    /// Faces within the radius that are left out, since they would have been folded back over others.
     pub refused: Vec<FaceId>,
 }
 

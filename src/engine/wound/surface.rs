@@ -16,8 +16,9 @@
 //!
 //! **Fronts that meet.** Behind an obstacle, such as the far side of a finger, two parts of the front bring coordinates that have nothing to do with
 //! each other. A face whose third corner is known, but not where the face would lay it, keeps its own; such nodes are
-//! [`Walk::torn`]. Where the skin curves strongly a tear may be led back towards the line, though the way there is long: a face that a tear
-//! would lay nearer to the line than the side over which one comes to it is refused from there ([`Walk::refused`]).
+//! [`Walk::torn`]. Where the skin curves strongly the front may be led back towards the line, though the way there is long. A face that would lie
+//! nearer to the line than the side over which one comes to it is refused from there ([`Walk::refused`]) if a tear led to it, or if its corner would
+//! lie at less than half of its straight distance in space.
 //!
 //! The thesis (Lam 2016, §5.3.2.1) collects faces by the texture distance of their corners from the centre of a link, recursively and twice; here both
 //! radii come out of one walk. It never goes over a gutter or a boundary, its work is that of the faces found, and it is done when the front is
@@ -31,6 +32,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::chain::{At, Chain};
 use super::flat::{Flat, sides_to_line, to_line, triangle_to_line, unfold};
+use crate::geometry::distance_to_segment;
 use crate::mesh::{EdgeId, FaceId, Mesh, NodeId, Surface};
 
 /// The part of a line in one skin face.
@@ -101,14 +103,15 @@ pub struct Walk {
     pub faces: Vec<Placed>,
     /// Nodes that have other coordinates in some of their faces, since fronts meet there; ascending.
     pub torn: Vec<NodeId>,
-    /// Faces within the radius that a tear would have folded back over others; ascending.
+    /// Faces that would have been folded back over others; ascending.
     pub refused: Vec<FaceId>,
 }
 
 /// Lays down every face within a radius of a line, beginning with its links.
 pub fn walk(mesh: &Mesh, chain: &Chain, links: &[SkinLink], length: f64, radius: f64) -> Walk {
     let nodes = around_links(mesh, chain, links);
-    let mut front = Front::new(mesh, length, radius, nodes);
+    let line = chain.points.iter().map(|p| p.position).collect();
+    let mut front = Front::new(mesh, line, length, radius, nodes);
     front.begin(chain, links);
     while front.step() {}
     let mut torn: Vec<NodeId> = front.torn.into_iter().collect();
@@ -176,6 +179,7 @@ type Step = Reverse<(u64, FaceId, u32, u8)>;
 
 struct Front<'a> {
     mesh: &'a Mesh,
+    line: Vec<DVec3>,
     length: f64,
     radius: f64,
     nodes: FxHashMap<NodeId, DVec2>,
@@ -187,9 +191,15 @@ struct Front<'a> {
 }
 
 impl<'a> Front<'a> {
-    fn new(mesh: &'a Mesh, length: f64, radius: f64, nodes: FxHashMap<NodeId, DVec2>) -> Self {
+    fn new(
+        mesh: &'a Mesh,
+        line: Vec<DVec3>,
+        length: f64,
+        radius: f64,
+        nodes: FxHashMap<NodeId, DVec2>,
+    ) -> Self {
         let (seen, steps, torn, refused) = Default::default();
-        Self { mesh, length, radius, nodes, seen, steps, faces: Vec::new(), torn, refused }
+        Self { mesh, line, length, radius, nodes, seen, steps, faces: Vec::new(), torn, refused }
     }
 
     /// Lays down the links' faces. The edges on which the line has a point are on the line, however they are rounded.
@@ -248,7 +258,8 @@ impl<'a> Front<'a> {
         let torn = before.torn || (known.is_some() && fitting.is_none());
         let sides = sides_to_line(&at, self.length);
         let distance = triangle_to_line(&at, sides);
-        if torn && distance < before.sides[side] {
+        let comes_back = distance < before.sides[side];
+        if comes_back && (torn || self.is_far(corners[2], at[third])) {
             self.refused.insert(face);
             return None;
         }
@@ -258,6 +269,12 @@ impl<'a> Front<'a> {
         }
         self.note_tears(f.nodes, at);
         Some(Placed { face, at, distance, sides, torn })
+    }
+
+    /// Whether a corner is laid less than half as far from the line as it is on the straightest way.
+    fn is_far(&self, corner: DVec3, at: DVec2) -> bool {
+        let away = self.line.windows(2).map(|w| distance_to_segment(corner, w[0], w[1]));
+        to_line(at, self.length) < 0.5 * away.fold(f64::INFINITY, f64::min)
     }
 
     /// What a face has of its own goes on into the faces behind it.
