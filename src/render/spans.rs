@@ -91,13 +91,20 @@ pub fn place(uv: [Vec2; 3], size: [u32; 2]) -> Option<Corners> {
     (fits && doubled_area(corners) != 0).then(|| shifted(corners, by))
 }
 
-/// The triangle moved by whole maps to each place where it may cover texels of the map, the one that lies farthest right and down first.
-pub fn copies(corners: Corners, size: [u32; 2]) -> impl Iterator<Item = Corners> {
+/// Moves a triangle by whole maps to each place where it may cover texels of the map, the one that lies farthest right and down first.
+#[inline]
+pub fn each_copy(corners: Corners, size: [u32; 2], mut each: impl FnMut(Corners)) {
     let maps = size.map(|side| i64::from(side) * PARTS);
     let [least, most] = bounds(corners);
-    let map_of = |v: i64, side: i64| if (0..side).contains(&v) { 0 } else { v.div_euclid(side) };
-    let [across, down] = [0, 1].map(|k| map_of(least[k], maps[k])..=map_of(most[k], maps[k]));
-    down.flat_map(move |j| across.clone().map(move |i| shifted(corners, [-i * maps[0], -j * maps[1]])))
+    let on_map = |v: [i64; 2]| (0..maps[0]).contains(&v[0]) && (0..maps[1]).contains(&v[1]);
+    if on_map(least) && on_map(most) {
+        return each(corners);
+    }
+    for j in least[1].div_euclid(maps[1])..=most[1].div_euclid(maps[1]) {
+        for i in least[0].div_euclid(maps[0])..=most[0].div_euclid(maps[0]) {
+            each(shifted(corners, [-i * maps[0], -j * maps[1]]));
+        }
+    }
 }
 
 /// Tells each row of a window in which a triangle covers texels, and which columns those are.

@@ -122,10 +122,12 @@ impl Brush<'_> {
     fn apply(&self, index: u32, coordinates: &Coordinates, ground: Ground<'_>) -> Option<Tile> {
         let before = Tile::read(index, ground.color, ground.discolor);
         let mut tile = before.clone();
-        let used: Vec<(usize, [f32; 2])> =
-            coordinates.at.iter().enumerate().filter_map(|(k, at)| Some((k, (*at)?))).collect();
-        used.iter().for_each(|(k, at)| tile.color[*k] = self.color(*at, tile.color[*k]));
-        let spots: Vec<Spot> = used.iter().filter_map(|(k, at)| self.spot(*k, *at)).collect();
+        let mut spots = Vec::with_capacity(tile.color.len());
+        for (k, at) in coordinates.at.iter().enumerate() {
+            let Some(at) = *at else { continue };
+            tile.color[k] = self.color(at, tile.color[k]);
+            spots.extend(self.spot(k, at));
+        }
         spots.chunks(LANES).for_each(|spots| self.discolor(spots, &mut tile.discolor));
         (tile != before).then_some(tile)
     }
@@ -189,17 +191,22 @@ struct Spot {
 }
 
 /// The patch between its four nearest texels, in 1/255.
+#[inline]
 fn bilinear(patch: &Image, at: [f32; 2]) -> [f32; 4] {
-    let [(x, right, tx), (y, below, ty)] = [0, 1].map(|k| {
-        let last = patch.size[k] - 1;
-        let place = at[k] * last as f32;
-        let first = (place as u32).min(last);
-        (first, (first + 1).min(last), place - first as f32)
-    });
-    let row = |y: u32| {
-        let (left, right) = (patch.at(x, y), patch.at(right, y));
-        [0, 1, 2, 3].map(|k| f32::from(left[k]) + (f32::from(right[k]) - f32::from(left[k])) * tx)
-    };
-    let (upper, lower) = (row(y), row(below));
-    [0, 1, 2, 3].map(|k| upper[k] + (lower[k] - upper[k]) * ty)
+    let (x, right, tx) = between(at[0], patch.size[0]);
+    let (y, below, ty) = between(at[1], patch.size[1]);
+    let corners = [(x, y), (right, y), (x, below), (right, below)];
+    let [a, b, c, d] = corners.map(|(x, y)| patch.at(x, y).map(f32::from));
+    let mix = |a: f32, b: f32, t: f32| a + (b - a) * t;
+    let channel = |k: usize| mix(mix(a[k], b[k], tx), mix(c[k], d[k], tx), ty);
+    [channel(0), channel(1), channel(2), channel(3)]
+}
+
+/// The texels on both sides of a place from 0 to 1 on n texels, and how far it is from the first to the second.
+#[inline]
+fn between(at: f32, n: u32) -> (u32, u32, f32) {
+    let last = n - 1;
+    let place = at * last as f32;
+    let first = (place as u32).min(last);
+    (first, (first + 1).min(last), place - first as f32)
 }

@@ -1,3 +1,5 @@
+//! Both noises against known values, their range, their symmetries, and places that are too far out.
+
 use super::*;
 use crate::canvas::look::Fbm;
 
