@@ -3,6 +3,11 @@
 struct Backdrop {
     // sRGB, a whole number of 255ths.
     color: vec4f,
+    // Width and height of the frame.
+    size: vec2u,
+    // Tiles from left to right.
+    across: u32,
+    unused: u32,
 }
 
 @group(0) @binding(0) var<uniform> backdrop: Backdrop;
@@ -10,14 +15,17 @@ struct Backdrop {
 @group(0) @binding(2) var specular: texture_2d<f32>;
 @group(0) @binding(3) var depths: texture_2d<f32>;
 
+// The tiles that hold any surface; the others were cleared to the background.
+@group(1) @binding(0) var<storage, read> tiles: array<u32>;
+
 override SPECULAR: bool;
 
 // Nothing is farther.
 const NOTHING = 1e30;
 
 @vertex
-fn cover(@builtin(vertex_index) corner: u32) -> @builtin(position) vec4f {
-    return vec4f(f32(corner & 1u) * 4.0 - 1.0, f32(corner >> 1u) * 4.0 - 1.0, 0.0, 1.0);
+fn cover(@builtin(vertex_index) corner: u32, @builtin(instance_index) instance: u32) -> @builtin(position) vec4f {
+    return tile_corner(tiles[instance], corner, backdrop.across, backdrop.size);
 }
 
 // Rounded here, since devices differ in how they do it.

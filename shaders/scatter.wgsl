@@ -14,8 +14,6 @@ struct Reach {
     unused: vec2u,
 }
 
-const TILE = 16u;
-
 @group(0) @binding(0) var<uniform> reach: Reach;
 @group(0) @binding(1) var light: texture_2d<f32>;
 @group(0) @binding(2) var depths: texture_2d<f32>;
@@ -31,12 +29,7 @@ override LOCALIZED: bool;
 
 @vertex
 fn cover(@builtin(vertex_index) corner: u32, @builtin(instance_index) instance: u32) -> @builtin(position) vec4f {
-    let tile = tiles[instance];
-    // Two triangles: 0 1 2, 3 2 1.
-    let turned = select(corner, 6u - corner, corner > 2u);
-    let at = vec2u(turned & 1u, turned >> 1u) + vec2u(tile % reach.across, tile / reach.across);
-    let place = vec2f(at * TILE) / vec2f(reach.size);
-    return vec4f(2.0 * place.x - 1.0, 1.0 - 2.0 * place.y, 0.0, 1.0);
+    return tile_corner(tiles[instance], corner, reach.across, vec2u(reach.size));
 }
 
 // A place along the pass, at the pixel's own place across it.

@@ -1,10 +1,19 @@
 // The skin pass: what is seen at each pixel, what it is made of, and what light leaves it. See `canvas::frame`.
 
 struct Scene {
-    // From positions to clip space; depth is 1 near and 0 far.
-    clip: mat4x4f,
     eye: vec3f,
     light_count: u32,
+    // Through the centre of the first pixel; and what a pixel to the right or down adds.
+    ray: vec3f,
+    // Tiles from left to right.
+    across: u32,
+    ray_across: vec3f,
+    unused: f32,
+    ray_down: vec3f,
+    padding: f32,
+    // Width and height of the frame.
+    size: vec2u,
+    spare: vec2u,
     // Depth along the view's axis: dot(forward.xyz, position) + forward.w.
     forward: vec4f,
     // Linear, where there is no colour map.
@@ -30,6 +39,13 @@ struct Scene {
 @group(1) @binding(5) var specular_map: texture_2d<f32>;
 @group(1) @binding(6) var discolor_map: texture_2d<f32>;
 
+@group(2) @binding(0) var faces: texture_2d<u32>;
+// 15 words a vertex.
+@group(2) @binding(1) var<storage, read> vertices: array<f32>;
+@group(2) @binding(2) var<storage, read> corners: array<u32>;
+// The tiles that hold any surface.
+@group(2) @binding(3) var<storage, read> tiles: array<u32>;
+
 // What is switched off is not compiled.
 override SHADOWS: bool;
 override TRANSMITTANCE: bool;
@@ -43,31 +59,74 @@ override DISCOLORATION: bool;
 // `Surface::Gutter`.
 const GUTTER = 1u;
 
-struct Corner {
-    @location(0) position: vec3f,
-    @location(1) uv: vec2f,
-    @location(2) normal: vec3f,
-    @location(3) tangent: vec3f,
-    @location(4) bitangent: vec3f,
-    @location(5) surface: u32,
+// A vertex, as the words of its floats; the last one is a whole number.
+struct Vertex {
+    position: vec3f,
+    uv: vec2f,
+    normal: vec3f,
+    tangent: vec3f,
+    bitangent: vec3f,
+    surface: u32,
 }
 
 struct Point {
-    @builtin(position) clip: vec4f,
-    @location(0) position: vec3f,
-    @location(1) uv: vec2f,
-    @location(2) normal: vec3f,
-    @location(3) tangent: vec3f,
-    @location(4) bitangent: vec3f,
-    @location(5) @interpolate(flat) surface: u32,
+    position: vec3f,
+    uv: vec2f,
+    normal: vec3f,
+    tangent: vec3f,
+    bitangent: vec3f,
+    surface: u32,
+    // Whether it is seen from outside.
+    front: bool,
 }
 
 @vertex
-fn place(corner: Corner) -> Point {
-    let clip = scene.clip * vec4f(corner.position, 1.0);
+fn cover(@builtin(vertex_index) corner: u32, @builtin(instance_index) instance: u32) -> @builtin(position) vec4f {
+    return tile_corner(tiles[instance], corner, scene.across, scene.size);
+}
+
+fn vector(at: u32) -> vec3f {
+    return vec3f(vertices[at], vertices[at + 1], vertices[at + 2]);
+}
+
+fn vertex(id: u32) -> Vertex {
+    let at = 15u * id;
+    let uv = vec2f(vertices[at + 3], vertices[at + 4]);
+    let surface = bitcast<u32>(vertices[at + 14]);
+    return Vertex(vector(at), uv, vector(at + 5), vector(at + 8), vector(at + 11), surface);
+}
+
+// What the ray through a pixel's centre meets of a face (Möller and Trumbore 1997). Work is done from the face's own corner, which f32 is
+// enough for.
+fn meet(face: u32, pixel: vec2u) -> Point {
+    let a = vertex(corners[3 * face]);
+    let b = vertex(corners[3 * face + 1]);
+    let c = vertex(corners[3 * face + 2]);
+    let ray = scene.ray + f32(pixel.x) * scene.ray_across + f32(pixel.y) * scene.ray_down;
+    let ab = b.position - a.position;
+    let ac = c.position - a.position;
+    let away = scene.eye - a.position;
+    let p = cross(ray, ac);
+    let q = cross(away, ab);
+    let area = dot(ab, p);
+    let w = weights(dot(away, p) / area, dot(ray, q) / area);
     return Point(
-        clip, corner.position, corner.uv, corner.normal, corner.tangent, corner.bitangent, corner.surface,
+        w.x * a.position + w.y * b.position + w.z * c.position,
+        w.x * a.uv + w.y * b.uv + w.z * c.uv,
+        w.x * a.normal + w.y * b.normal + w.z * c.normal,
+        w.x * a.tangent + w.y * b.tangent + w.z * c.tangent,
+        w.x * a.bitangent + w.y * b.bitangent + w.z * c.bitangent,
+        a.surface,
+        dot(cross(ab, ac), away) > 0.0,
     );
+}
+
+// Kept within the face, which its corners' rounding to 1/256 of a pixel may reach beyond.
+fn weights(v: f32, w: f32) -> vec3f {
+    let inside = saturate(vec3f(1.0 - v - w, v, w));
+    let sum = inside.x + inside.y + inside.z;
+    // A face that is seen as a line: anywhere on it will do.
+    return select(vec3f(1.0 / 3.0), inside / sum, sum > 0.5 && sum < 4.0);
 }
 
 // What the surface is made of at a point.
@@ -181,10 +240,20 @@ struct Pixel {
 // The most that half a float holds.
 const BRIGHTEST = vec3f(65504.0);
 
+// No face, and farther than any.
+const NOTHING = 0xffffffffu;
+const FAR = 1e30;
+
 @fragment
-fn shade(point: Point, @builtin(front_facing) front: bool) -> Pixel {
+fn shade(@builtin(position) place: vec4f) -> Pixel {
+    let pixel = vec2u(place.xy);
+    let face = textureLoad(faces, pixel, 0).r;
+    if face == NOTHING {
+        return Pixel(vec4f(0.0), FAR, vec4f(0.0), vec4f(0.0));
+    }
+    let point = meet(face, pixel);
     let outward = unit(point.normal, vec3f(0.0, 1.0, 0.0));
-    let normal = select(-outward, outward, front);
+    let normal = select(-outward, outward, point.front);
     let view = unit(scene.eye - point.position, vec3f(0.0));
     var material: Material;
     if point.surface == GUTTER {

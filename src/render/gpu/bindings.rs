@@ -18,6 +18,8 @@ pub(crate) enum Bound {
     Write,
     /// A texture whose texels are loaded.
     Texture,
+    /// A texture of whole numbers.
+    Faces,
     /// Layers of depth, whose texels are loaded.
     Depths,
 }
@@ -42,6 +44,7 @@ impl Bound {
                 let plain = wgpu::TextureSampleType::Float { filterable: false };
                 texture(plain, wgpu::TextureViewDimension::D2)
             }
+            Self::Faces => texture(wgpu::TextureSampleType::Uint, wgpu::TextureViewDimension::D2),
             Self::Depths => texture(wgpu::TextureSampleType::Depth, wgpu::TextureViewDimension::D2Array),
         }
     }

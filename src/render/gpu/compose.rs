@@ -1,13 +1,14 @@
-//! The picture: diffuse and specular light together, clamped, as sRGB bytes, before the background.
+//! The picture: diffuse and specular light together, clamped, as sRGB bytes, over the tiles that hold any surface; the rest is the background.
 
 use wgpu::{BindingResource, ShaderStages};
 
 use super::bindings::{Bound, group, layout, pipeline_layout, view};
 use super::device::Device;
-use super::pipelines::{Cache, Drawing, cleared};
+use super::pipelines::{Cache, Drawing, filled};
 use super::record::{Words, bytes, record};
 use super::store::Store;
 use super::targets::{BYTES, Targets};
+use super::tiles::{Lists, tiles};
 use super::timing::Recorder;
 use crate::canvas::RenderError;
 use crate::canvas::frame::FrameJob;
@@ -17,6 +18,9 @@ record! {
     /// What is behind the model.
     Backdrop {
         color: [f32; 4],
+        size: [u32; 2],
+        across: u32,
+        unused: u32,
     }
 }
 
@@ -24,6 +28,7 @@ record! {
 #[derive(Debug)]
 pub(crate) struct ComposePass {
     layout: wgpu::BindGroupLayout,
+    list: wgpu::BindGroupLayout,
     whole: wgpu::PipelineLayout,
     module: wgpu::ShaderModule,
     /// By whether there is specular light.
@@ -35,9 +40,10 @@ impl ComposePass {
     pub(crate) fn new(device: &Device) -> Result<Self, RenderError> {
         let least = Bound::Uniform(4 * Backdrop::COUNT as u64);
         let bound = [least, Bound::Texture, Bound::Texture, Bound::Texture];
-        let layout = layout(device, "compose", ShaderStages::FRAGMENT, &bound)?;
-        let whole = pipeline_layout(device, "compose", &[&layout])?;
-        Ok(Self { layout, whole, module: device.shader("compose")?, pipelines: Cache::new() })
+        let frame = layout(device, "compose", ShaderStages::VERTEX_FRAGMENT, &bound)?;
+        let list = layout(device, "tiles to compose", ShaderStages::VERTEX, &[Bound::Read])?;
+        let whole = pipeline_layout(device, "compose", &[&frame, &list])?;
+        Ok(Self { layout: frame, list, whole, module: device.shader("compose")?, pipelines: Cache::new() })
     }
 
     /// Composes a picture.
@@ -50,7 +56,8 @@ impl ComposePass {
     ) -> Result<(), RenderError> {
         let device = recorder.device();
         let color = background(job.look.background).map(|byte| f32::from(byte) / 255.0);
-        let backdrop = backdrop.put(device, &bytes(&[Backdrop { color }]))?;
+        let (size, across) = (targets.size, tiles(targets.size)[0]);
+        let backdrop = backdrop.put(device, &bytes(&[Backdrop { color, size, across, unused: 0 }]))?;
         let (diffuse, picture) = (view(&targets.diffuse), view(&targets.picture));
         let resources = [
             backdrop.as_entire_binding(),
@@ -58,18 +65,21 @@ impl ComposePass {
             BindingResource::TextureView(&targets.specular),
             BindingResource::TextureView(&targets.distance),
         ];
-        let group = group(device, "compose", &self.layout, &resources)?;
+        let frame = group(device, "compose", &self.layout, &resources)?;
+        let seen = [targets.lists.seen.as_entire_binding()];
+        let list = group(device, "tiles to compose", &self.list, &seen)?;
         let pipeline = self.pipelines.get(job.switches.specular, |specular| self.make(device, *specular))?;
         recorder.pass("compose", |encoder, stamps| {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some("compose"),
-                color_attachments: &[Some(cleared(&picture, 0.0))],
-                timestamp_writes: stamps.whole(),
+                color_attachments: &[Some(filled(&picture, color.map(f64::from)))],
+                timestamp_writes: stamps.render(true, true),
                 ..wgpu::RenderPassDescriptor::default()
             });
             pass.set_pipeline(&pipeline);
-            pass.set_bind_group(0, &group, &[]);
-            pass.draw(0..3, 0..1);
+            pass.set_bind_group(0, &frame, &[]);
+            pass.set_bind_group(1, &list, &[]);
+            pass.draw_indirect(&targets.lists.draws, Lists::SEEN);
         })
     }
 
@@ -83,6 +93,7 @@ impl ComposePass {
             targets: &[Some(BYTES)],
             constants: &[("SPECULAR", f64::from(u8::from(specular)))],
             attributes: &[],
+            nearest: false,
         }
         .make(device)
     }

@@ -3,13 +3,14 @@
 //! | pass | what it does | left out |
 //! | --- | --- | --- |
 //! | `upload` | what of the mesh has changed | it has not |
+//! | `visible` | the nearest face at each pixel | nothing is in view |
 //! | `shadow 0` … | a light's shadow map | the light and the mesh are as they were; its cone misses the model; nothing reads it; nothing is in view |
-//! | `skin` | the light that leaves the surface | nothing is in view |
+//! | `skin` | the light that leaves the surface | tiles without any |
 //! | `scatter` | both passes of the scattering | switched off; tiles without skin |
 //! | `discolor` | the local discoloration, in `scatter`'s time | switched off; tiles without any |
-//! | `compose` | the picture | nothing is in view |
+//! | `compose` | the picture | tiles without any surface |
 //!
-//! Where the device has a clock a frame is one submission. Positions are kept relative to the job's origin, in f32.
+//! With nothing in view no pass is needed at all. Where the device has a clock a frame is one submission. Positions are kept relative to the job's origin, in f32.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -25,8 +26,9 @@ use super::shadow::{ShadowMaps, ShadowPass};
 use super::skin::{Shaded, SkinPass, SkinState};
 use super::store::Store;
 use super::targets::Targets;
-use super::tiles::{Lists, TilesPass};
+use super::tiles::{Lists, TilesPass, TilesStep};
 use super::timing::{Clock, Recorder};
+use super::visible::VisiblePass;
 use crate::canvas::RenderError;
 use crate::canvas::frame::{Frame, FrameJob, Pass};
 use crate::canvas::image::{Image, Maps};
@@ -34,6 +36,7 @@ use crate::canvas::image::{Image, Maps};
 /// The passes of a frame, compiled: one of each for all scenes of a device.
 #[derive(Debug)]
 pub struct Passes {
+    visible: VisiblePass,
     shadow: ShadowPass,
     skin: SkinPass,
     tiles: TilesPass,
@@ -45,6 +48,7 @@ impl Passes {
     /// Compiles them.
     pub fn new(device: &Device) -> Result<Self, RenderError> {
         Ok(Self {
+            visible: VisiblePass::new(device)?,
             shadow: ShadowPass::new(device)?,
             skin: SkinPass::new(device)?,
             tiles: TilesPass::new(device)?,
@@ -63,6 +67,7 @@ pub struct Frames {
     surface: Surface,
     shadows: ShadowMaps,
     skin: SkinState,
+    viewer: Store,
     screen: Store,
     scatter: ScatterState,
     backdrop: Store,
@@ -104,6 +109,7 @@ impl Frames {
             surface: Surface::new(),
             shadows: ShadowMaps::new(&device)?,
             skin: SkinState::new(&device, maps)?,
+            viewer: Store::new("viewer", BufferUsages::UNIFORM),
             screen: Store::new("screen", BufferUsages::UNIFORM),
             scatter: ScatterState::new(),
             backdrop: Store::new("backdrop", BufferUsages::UNIFORM),
@@ -137,15 +143,19 @@ impl Frames {
         let Self { device, passes, clock, surface, shadows, targets, .. } = self;
         let Some(targets) = targets else { return Err(RenderError::Refused("no target".into())) };
         let mut recorder = Recorder::new(device, clock.as_ref(), uploaded);
-        draw_shadows(&mut recorder, &passes.shadow, shadows, surface, (job, &plan))?;
         if let Some(why) = plan.empty {
+            recorder.skip("visible", why);
+            draw_shadows(&mut recorder, &passes.shadow, shadows, surface, (job, &plan))?;
             ["skin", "scatter", "discolor", "compose"].iter().for_each(|id| recorder.skip(*id, why));
             let image = Image::filled(job.view.size, background(job.look.background));
             return Ok(Frame { image, passes: recorder.passes() });
         }
+        let tiles = passes.tiles.prepare(device, &mut self.screen, targets, job)?;
+        passes.visible.draw(&mut recorder, &mut self.viewer, (targets, &tiles), surface, job)?;
+        draw_shadows(&mut recorder, &passes.shadow, shadows, surface, (job, &plan))?;
         let with = Shaded { surface, lights: &plan.lights, shadows, painted };
         passes.skin.draw(&mut recorder, &mut self.skin, targets, &with, job)?;
-        draw_scattering(&mut recorder, passes, (&mut self.screen, &mut self.scatter), targets, job)?;
+        draw_scattering(&mut recorder, &passes.scatter, &mut self.scatter, (targets, &tiles), job)?;
         passes.compose.draw(&mut recorder, &mut self.backdrop, targets, job)?;
         read(recorder, targets, job)
     }
@@ -193,19 +203,18 @@ fn draw_shadows(
 
 fn draw_scattering(
     recorder: &mut Recorder<'_>,
-    passes: &Passes,
-    (screen, state): (&mut Store, &mut ScatterState),
-    targets: &Targets,
+    pass: &ScatterPass,
+    state: &mut ScatterState,
+    (targets, tiles): (&Targets, &TilesStep<'_>),
     job: &FrameJob<'_>,
 ) -> Result<(), RenderError> {
     if !job.switches.scattering {
         recorder.skip("scatter", "switched off");
         return Ok(());
     }
-    let tiles = passes.tiles.prepare(recorder.device(), screen, targets, job)?;
-    let scatter = passes.scatter.prepare(recorder.device(), state, targets, job)?;
+    let scatter = pass.prepare(recorder.device(), state, targets, job)?;
     recorder.pass("scatter", |encoder, stamps| {
-        tiles.record(encoder, stamps);
+        tiles.list_skin(encoder, stamps);
         scatter.record(encoder, stamps);
     })
 }
@@ -226,21 +235,32 @@ fn read(recorder: Recorder<'_>, targets: &Targets, job: &FrameJob<'_>) -> Result
     Ok(Frame { image: Image { size: targets.size, texels }, passes })
 }
 
-/// Says how many tiles the scattering worked through, and the discoloration in it.
-fn count(passes: &mut Vec<Pass>, job: &FrameJob<'_>, of: u32, [plain, localized]: [u32; 2]) {
-    let Some(at) = passes.iter().position(|pass| pass.id == "scatter") else { return };
+/// Says how many tiles were worked through.
+fn count(passes: &mut Vec<Pass>, job: &FrameJob<'_>, of: u32, [seen, plain, localized]: [u32; 3]) {
     let on = job.switches.scattering;
-    let scatter = &mut passes[at];
-    (scatter.of, scatter.tiles) = (of, if on { plain + localized } else { 0 });
-    if on && scatter.tiles == 0 {
-        scatter.skipped = Some("no skin is in view".into());
-    }
-    let skipped = match () {
+    let local = match () {
         () if !job.switches.discoloration => Some("switched off"),
         () if !on => Some("scattering is switched off"),
         () => (localized == 0).then_some("no discoloured skin is in view"),
     };
-    let tiles = if skipped.is_some() { 0 } else { localized };
-    let skipped = skipped.map(Into::into);
-    passes.insert(at + 1, Pass { id: "discolor".into(), skipped, tiles, of, ..Pass::default() });
+    let discolor = Pass {
+        id: "discolor".into(),
+        tiles: if local.is_some() { 0 } else { localized },
+        of,
+        skipped: local.map(Into::into),
+        us: 0.0,
+    };
+    for pass in passes.iter_mut() {
+        let (tiles, why) = match pass.id.as_str() {
+            "skin" => (seen, "nothing is in view"),
+            "scatter" => (if on { plain + localized } else { 0 }, "no skin is in view"),
+            _ => continue,
+        };
+        (pass.tiles, pass.of) = (tiles, of);
+        if tiles == 0 {
+            pass.skipped.get_or_insert_with(|| why.into());
+        }
+    }
+    let last = passes.len() - 1;
+    passes.insert(last, discolor);
 }

@@ -41,6 +41,14 @@ impl Lens {
         std::array::from_fn(|column| self.0.map(|row| row[column] as f32))
     }
 
+    /// The ray through the centre of the first pixel of a picture, as long as it is at depth 1, and what a pixel to the right or down adds.
+    pub(crate) fn rays(view: &View) -> [[f32; 3]; 3] {
+        let [right, up, forward] = view.basis;
+        let pixel = 2.0 * libm::tan(view.fov_y * 0.5) / f64::from(view.size[1]);
+        let [x, y] = view.size.map(|side| 0.5 * (1.0 - f64::from(side)) * pixel);
+        [forward + right * x - up * y, right * pixel, -up * pixel].map(|ray| ray.as_vec3().to_array())
+    }
+
     /// The last row: depth along the axis.
     pub(crate) fn depth(&self) -> [f32; 4] {
         self.0[3].map(|x| x as f32)
@@ -98,6 +106,18 @@ mod tests {
         let height = 10.0 * libm::tan(0.3);
         let [x, y, _, w] = lens.see(DVec3::new(1.0 + height * 320.0 / 180.0, 2.0 + height, 3.0));
         assert!((x / w - 1.0).abs() < 1e-12 && (y / w - 1.0).abs() < 1e-12, "{x} {y} {w}");
+    }
+
+    #[test]
+    fn a_pixel_s_ray_is_seen_at_its_centre() {
+        let (view, [first, across, down]) =
+            (view(), Lens::rays(&view()).map(|ray| DVec3::from(ray.map(f64::from))));
+        let lens = Lens::of_view(&view, DVec3::ZERO);
+        for [i, j] in [[0.0, 0.0], [319.0, 179.0], [17.0, 120.0]] {
+            let [x, y, _, w] = lens.see(view.eye + (first + across * i + down * j) * 7.0);
+            let place = [(x / w + 1.0) * 160.0, (1.0 - y / w) * 90.0];
+            assert!((place[0] - i - 0.5).abs() < 1e-4 && (place[1] - j - 0.5).abs() < 1e-4, "{place:?}");
+        }
     }
 
     #[test]

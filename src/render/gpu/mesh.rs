@@ -57,8 +57,8 @@ impl Surface {
         Self {
             rows: Vec::new(),
             corners: Vec::new(),
-            vertices: Store::new("vertices", BufferUsages::VERTEX),
-            indices: Store::new("corners of faces", BufferUsages::INDEX),
+            vertices: Store::new("vertices", BufferUsages::VERTEX | BufferUsages::STORAGE),
+            indices: Store::new("corners of faces", BufferUsages::INDEX | BufferUsages::STORAGE),
             seen: None,
             bounds: [DVec3::ZERO; 2],
             revision: 0,
@@ -99,12 +99,23 @@ impl Surface {
         self.revision
     }
 
-    /// Draws all of it.
+    /// Its vertices and the corners of its faces, for shaders that look them up. An error before anything was uploaded.
+    pub(crate) fn buffers(&self) -> Result<[&wgpu::Buffer; 2], RenderError> {
+        let both = self.vertices.buffer().zip(self.indices.buffer());
+        both.map(<[_; 2]>::from).ok_or_else(|| RenderError::Refused("no mesh was uploaded".into()))
+    }
+
+    /// How many corners its faces have.
+    pub(crate) fn corner_count(&self) -> u32 {
+        3 * self.corners.len() as u32
+    }
+
+    /// Draws all of it, by the positions alone.
     pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
         let (Some(vertices), Some(indices)) = (self.vertices.buffer(), self.indices.buffer()) else { return };
         pass.set_vertex_buffer(0, vertices.slice(..));
         pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
-        pass.draw_indexed(0..3 * self.corners.len() as u32, 0, 0..1);
+        pass.draw_indexed(0..self.corner_count(), 0, 0..1);
     }
 }
 

@@ -6,7 +6,7 @@
 //! | --- | --- |
 //! | [`painter`] | the maps: patches, paintings, and what takes them back |
 //! | [`frames`] | the passes of a frame, one after the other |
-//! | `shadow`, `skin`, `tiles`, `scatter`, `compose` | the passes |
+//! | `visible`, `shadow`, `skin`, `tiles`, `scatter`, `compose` | the passes |
 //! | `mesh`, `lens`, `uniforms` | what they are told |
 //! | `targets`, `timing` | what they draw into, and how long they take |
 //! | `record`, `store`, `bindings`, `pipelines` | how the device is told |
@@ -37,6 +37,7 @@ mod tests;
 mod tiles;
 mod timing;
 mod uniforms;
+mod visible;
 
 use std::sync::Arc;
 

@@ -55,8 +55,10 @@ pub(crate) struct Drawing<'a> {
     pub(crate) targets: &'a [Option<TextureFormat>],
     /// The shader's constants.
     pub(crate) constants: &'a [(&'a str, f64)],
-    /// Attributes of the surface's vertices, in the order of their locations; none is no surface, and no depth.
+    /// Attributes of the surface's vertices; none where the shader looks them up, or needs none.
     pub(crate) attributes: &'a [wgpu::VertexAttribute],
+    /// Whether the nearest wins; else all are as near.
+    pub(crate) nearest: bool,
 }
 
 impl Drawing<'_> {
@@ -70,7 +72,7 @@ impl Drawing<'_> {
             step_mode: wgpu::VertexStepMode::Vertex,
             attributes: self.attributes,
         });
-        let surface = !self.attributes.is_empty();
+        let fetched = !self.attributes.is_empty();
         let fragment = self.fragment.map(|entry| wgpu::FragmentState {
             module: self.module,
             entry_point: Some(entry),
@@ -85,11 +87,11 @@ impl Drawing<'_> {
                     module: self.module,
                     entry_point: Some(self.vertex),
                     compilation_options: options(),
-                    buffers: if surface { std::slice::from_ref(&vertices) } else { &[] },
+                    buffers: if fetched { std::slice::from_ref(&vertices) } else { &[] },
                 },
                 // Both sides of a face are seen.
                 primitive: wgpu::PrimitiveState::default(),
-                depth_stencil: surface.then(nearest),
+                depth_stencil: self.nearest.then(nearest),
                 multisample: wgpu::MultisampleState::default(),
                 fragment,
                 multiview_mask: None,
@@ -121,8 +123,15 @@ pub(crate) fn far(view: &wgpu::TextureView) -> wgpu::RenderPassDepthStencilAttac
 
 /// A colour attachment that begins with one value in its first channel, and nothing in the others.
 pub(crate) fn cleared(view: &wgpu::TextureView, first: f64) -> wgpu::RenderPassColorAttachment<'_> {
-    let color = wgpu::Color { r: first, g: 0.0, b: 0.0, a: 0.0 };
-    attachment(view, wgpu::LoadOp::Clear(color))
+    filled(view, [first, 0.0, 0.0, 0.0])
+}
+
+/// A colour attachment that begins with a colour.
+pub(crate) fn filled(
+    view: &wgpu::TextureView,
+    [r, g, b, a]: [f64; 4],
+) -> wgpu::RenderPassColorAttachment<'_> {
+    attachment(view, wgpu::LoadOp::Clear(wgpu::Color { r, g, b, a }))
 }
 
 /// A colour attachment that is drawn over.

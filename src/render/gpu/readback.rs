@@ -1,12 +1,19 @@
 //! From the device back: buffers, and regions of textures, whose rows lie padded on the way.
 
 use std::ops::Range;
-use std::sync::{Arc, Mutex};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
+use std::time::Duration;
 
 use wgpu::{BufferUsages, COPY_BYTES_PER_ROW_ALIGNMENT};
 
 use super::device::Device;
 use crate::canvas::RenderError;
+
+/// What becomes of a mapping.
+type Mapped = Result<(), wgpu::BufferAsyncError>;
+
+/// Seconds that an answer may take after the device is done.
+const PATIENCE: u32 = 10;
 
 /// Where and how large a region of a texture is, and how it lies in a buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,23 +110,27 @@ impl Device {
 
     /// The bytes of a staging buffer, once what was submitted is done.
     pub fn mapped(&self, staging: &wgpu::Buffer) -> Result<Vec<u8>, RenderError> {
-        let answer = Arc::new(Mutex::new(None));
-        let said = answer.clone();
+        let (say, told) = mpsc::channel();
         self.guarded("mapping a buffer", || {
-            staging.map_async(wgpu::MapMode::Read, .., move |result| {
-                if let Ok(mut answer) = said.lock() {
-                    *answer = Some(result);
-                }
-            });
+            staging.map_async(wgpu::MapMode::Read, .., move |result| drop(say.send(result)));
         })?;
-        self.wait()?;
         let failed = |why: &str| RenderError::Lost(format!("a buffer cannot be read: {why}"));
-        match answer.lock().map(|answer| answer.clone()) {
-            Ok(Some(Ok(()))) => {}
-            _ => return Err(failed("it was not mapped")),
-        }
+        self.await_mapping(&told)?.map_err(|error| failed(&error.to_string()))?;
         let bytes = staging.get_mapped_range(..).map_err(|error| failed(&error.to_string()))?.to_vec();
         staging.unmap();
         Ok(bytes)
+    }
+
+    /// Waits until a mapping is answered. It may be another thread's waiting that the answer comes with, a little later than ours ends.
+    fn await_mapping(&self, told: &Receiver<Mapped>) -> Result<Mapped, RenderError> {
+        for _ in 0..PATIENCE {
+            self.wait()?;
+            match told.recv_timeout(Duration::from_secs(1)) {
+                Ok(answer) => return Ok(answer),
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => break,
+            }
+        }
+        Err(RenderError::Lost("a mapping was never answered".into()))
     }
 }

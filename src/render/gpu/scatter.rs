@@ -90,6 +90,7 @@ impl ScatterPass {
                 targets: &[Some(LIGHT)],
                 constants: &[("DOWN", down), ("LOCALIZED", localized)],
                 attributes: &[],
+                nearest: false,
             }
             .make(device)
         };
@@ -164,11 +165,11 @@ impl ScatterStep<'_> {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some(label),
             color_attachments: &[Some(kept(into))],
-            timestamp_writes: stamps.last(),
+            timestamp_writes: stamps.render(false, true),
             ..wgpu::RenderPassDescriptor::default()
         });
         pass.set_bind_group(0, from, &[]);
-        let lists = [(&self.plain, 0), (&self.localized, Lists::DRAW)];
+        let lists = [(&self.plain, Lists::PLAIN), (&self.localized, Lists::LOCALIZED)];
         for (pipeline, (list, at)) in pipelines.into_iter().zip(lists) {
             pass.set_pipeline(pipeline);
             pass.set_bind_group(1, list, &[]);

@@ -23,10 +23,11 @@ macro_rules! wgsl {
 /// All of them. The adapter's digest is over their texts.
 pub(crate) const SHADERS: &[Shader] = &[
     Shader { name: "shadow", parts: wgsl!("shadow") },
-    Shader { name: "skin", parts: wgsl!("srgb", "maps", "light", "skin") },
-    Shader { name: "tiles", parts: wgsl!("tiles") },
-    Shader { name: "scatter", parts: wgsl!("scatter") },
-    Shader { name: "compose", parts: wgsl!("srgb", "compose") },
+    Shader { name: "visible", parts: wgsl!("visible") },
+    Shader { name: "skin", parts: wgsl!("quads", "srgb", "maps", "light", "skin") },
+    Shader { name: "tiles", parts: wgsl!("quads", "tiles") },
+    Shader { name: "scatter", parts: wgsl!("quads", "scatter") },
+    Shader { name: "compose", parts: wgsl!("quads", "srgb", "compose") },
     Shader { name: "patch", parts: wgsl!("noise", "patch") },
     Shader { name: "place", parts: wgsl!("place") },
     Shader { name: "paint", parts: wgsl!("noise", "place", "paint") },

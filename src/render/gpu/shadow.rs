@@ -46,6 +46,7 @@ impl ShadowPass {
             targets: &[],
             constants: &[],
             attributes: &wgpu::vertex_attr_array![0 => Float32x3],
+            nearest: true,
         }
         .make(device)?;
         Ok(Self { layout, pipeline })
@@ -141,7 +142,7 @@ impl ShadowMaps {
             let mut drawing = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some("shadow map"),
                 depth_stencil_attachment: Some(far(&view)),
-                timestamp_writes: stamps.whole(),
+                timestamp_writes: stamps.render(true, true),
                 ..wgpu::RenderPassDescriptor::default()
             });
             drawing.set_pipeline(&pass.pipeline);

@@ -1,4 +1,5 @@
-//! The skin pass: what is seen, what it is made of, and what light leaves it, all in one drawing of the surface (Lam 2016, Appendix B).
+//! The skin pass: what the surface that is seen is made of, and what light leaves it (Lam 2016, Appendix B), pixel by pixel over the tiles that
+//! hold any.
 //!
 //! Each combination of switches has a pipeline of its own, in which what is off is not there; nor are the targets that nobody would read.
 
@@ -6,13 +7,13 @@ use wgpu::{BindingResource, BufferUsages, ShaderStages, TextureFormat, TextureUs
 
 use super::bindings::{Bound, group, layout, pipeline_layout, view};
 use super::device::Device;
-use super::lens::Lens;
 use super::mesh::Surface;
-use super::pipelines::{Cache, Drawing, cleared, far};
+use super::pipelines::{Cache, Drawing, cleared};
 use super::record::{Words, bytes};
 use super::shadow::ShadowMaps;
 use super::store::Store;
 use super::targets::{BYTES, DISTANCE, LIGHT, Targets};
+use super::tiles::Lists;
 use super::timing::Recorder;
 use super::uniforms::{self, Lamp, Scene, Transport};
 use crate::canvas::RenderError;
@@ -63,6 +64,7 @@ fn formats(key: &Key) -> [Option<TextureFormat>; 4] {
 pub(crate) struct SkinPass {
     frame: wgpu::BindGroupLayout,
     maps: wgpu::BindGroupLayout,
+    seen: wgpu::BindGroupLayout,
     whole: wgpu::PipelineLayout,
     module: wgpu::ShaderModule,
     pipelines: Cache<Key>,
@@ -101,7 +103,7 @@ impl SkinState {
 /// What a frame shades with.
 #[derive(Debug)]
 pub(crate) struct Shaded<'a> {
-    /// What is drawn.
+    /// What is seen.
     pub(crate) surface: &'a Surface,
     /// The lights that reach it, by their place in the job; the first reads the first layer of the shadow maps.
     pub(crate) lights: &'a [usize],
@@ -120,12 +122,15 @@ impl SkinPass {
         let mut bound = vec![Bound::Read, Bound::Read];
         bound.extend([Bound::Texture; 5]);
         let maps = layout(device, "maps", ShaderStages::FRAGMENT, &bound)?;
-        let whole = pipeline_layout(device, "skin", &[&frame, &maps])?;
+        let seen =
+            layout(device, "what is seen", stages, &[Bound::Faces, Bound::Read, Bound::Read, Bound::Read])?;
+        let whole = pipeline_layout(device, "skin", &[&frame, &maps, &seen])?;
         let table =
             |label, values: &[f32]| device.filled(label, bytemuck::cast_slice(values), BufferUsages::STORAGE);
         Ok(Self {
             frame,
             maps,
+            seen,
             whole,
             module: device.shader("skin")?,
             pipelines: Cache::new(),
@@ -148,6 +153,7 @@ impl SkinPass {
         let pipeline = self.pipelines.get(key, |key| self.make(device, key))?;
         let frame = self.bind_frame(device, state, with, job)?;
         let maps = self.bind_maps(device, state, with.painted)?;
+        let seen = self.bind_seen(device, targets, with.surface)?;
         let diffuse = view(&targets.diffuse);
         let views = [&diffuse, &targets.distance, &targets.specular, &targets.discolor];
         let first = [0.0, NOTHING, 0.0, 0.0];
@@ -157,14 +163,14 @@ impl SkinPass {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some("skin"),
                 color_attachments: &attachments,
-                depth_stencil_attachment: Some(far(&targets.nearest)),
-                timestamp_writes: stamps.whole(),
+                timestamp_writes: stamps.render(true, true),
                 ..wgpu::RenderPassDescriptor::default()
             });
             pass.set_pipeline(&pipeline);
             pass.set_bind_group(0, &frame, &[]);
             pass.set_bind_group(1, &maps, &[]);
-            with.surface.draw(&mut pass);
+            pass.set_bind_group(2, &seen, &[]);
+            pass.draw_indirect(&targets.lists.draws, Lists::SEEN);
         })
     }
 
@@ -174,13 +180,12 @@ impl SkinPass {
             label: "skin",
             layout: &self.whole,
             module: &self.module,
-            vertex: "place",
+            vertex: "cover",
             fragment: Some("shade"),
             targets: &formats(key),
             constants: &constants,
-            attributes: &wgpu::vertex_attr_array![
-                0 => Float32x3, 1 => Float32x2, 2 => Float32x3, 3 => Float32x3, 4 => Float32x3, 5 => Uint32
-            ],
+            attributes: &[],
+            nearest: false,
         }
         .make(device)
     }
@@ -192,8 +197,7 @@ impl SkinPass {
         with: &Shaded<'_>,
         job: &FrameJob<'_>,
     ) -> Result<wgpu::BindGroup, RenderError> {
-        let lens = Lens::of_view(&job.view, job.origin);
-        let scene = uniforms::scene(job, &lens, with.lights.len());
+        let scene = uniforms::scene(job, with.lights.len());
         let lit = (0..).zip(with.lights).map(|(layer, &i)| uniforms::lamp(&job.lights[i], job.origin, layer));
         let mut lamps: Vec<_> = lit.collect();
         if lamps.is_empty() {
@@ -211,6 +215,22 @@ impl SkinPass {
             BindingResource::TextureView(&maps),
         ];
         group(device, "skin", &self.frame, &resources)
+    }
+
+    fn bind_seen(
+        &self,
+        device: &Device,
+        targets: &Targets,
+        surface: &Surface,
+    ) -> Result<wgpu::BindGroup, RenderError> {
+        let [vertices, corners] = surface.buffers()?;
+        let resources = [
+            BindingResource::TextureView(&targets.faces),
+            vertices.as_entire_binding(),
+            corners.as_entire_binding(),
+            targets.lists.seen.as_entire_binding(),
+        ];
+        group(device, "what is seen", &self.seen, &resources)
     }
 
     fn bind_maps(

@@ -14,6 +14,8 @@ use crate::canvas::RenderError;
 pub(crate) const LIGHT: TextureFormat = TextureFormat::Rgba16Float;
 /// Depth along the view's axis.
 pub(crate) const DISTANCE: TextureFormat = TextureFormat::R32Float;
+/// Ids of faces.
+pub(crate) const FACES: TextureFormat = TextureFormat::R32Uint;
 /// Discoloration, and the picture.
 pub(crate) const BYTES: TextureFormat = TextureFormat::Rgba8Unorm;
 
@@ -25,6 +27,8 @@ const MOST_PIXELS: u64 = 1 << 26;
 pub(crate) struct Targets {
     /// Width and height.
     pub(crate) size: [u32; 2],
+    /// The nearest face.
+    pub(crate) faces: wgpu::TextureView,
     /// Diffuse light, in the end scattered.
     pub(crate) diffuse: wgpu::Texture,
     /// Diffuse light, scattered across.
@@ -59,6 +63,7 @@ impl Targets {
         let staged = Self::whole(size).padded() + Lists::DRAWS.next_multiple_of(256) + Clock::BYTES;
         Ok(Self {
             size,
+            faces: whole("faces", FACES)?,
             diffuse: texture("diffuse light", LIGHT, read | TextureUsages::COPY_SRC)?,
             across: texture("light scattered across", LIGHT, read | TextureUsages::COPY_DST)?,
             specular: whole("specular light", LIGHT)?,

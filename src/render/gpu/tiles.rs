@@ -1,5 +1,5 @@
-//! Which tiles of the screen hold skin, and which of them discoloration: listed on the device, so that the scattering is drawn over them
-//! alone.
+//! Which tiles of the screen hold any surface, which of them skin, and which of these discoloration: listed on the device, so that what follows is
+//! drawn over them alone.
 
 use wgpu::{BufferUsages, ShaderStages};
 
@@ -42,22 +42,30 @@ pub(crate) fn tiles(size: [u32; 2]) -> [u32; 2] {
 /// The lists of a frame's tiles.
 #[derive(Debug)]
 pub(crate) struct Lists {
-    /// Draws of the plain and of the localized tiles.
+    /// What draws each of them.
     pub(crate) draws: wgpu::Buffer,
+    /// Tiles with any surface.
+    pub(crate) seen: wgpu::Buffer,
     /// Tiles with skin and no discoloration.
     pub(crate) plain: wgpu::Buffer,
-    /// Tiles with discoloration.
+    /// Tiles with discoloured skin.
     pub(crate) localized: wgpu::Buffer,
     /// How many tiles there are.
     pub(crate) count: u32,
 }
 
-impl Lists {
-    /// Bytes of both draws.
-    pub(crate) const DRAWS: u64 = 2 * Self::DRAW;
+/// Bytes of what draws a list.
+const DRAW: u64 = 4 * Draw::COUNT as u64;
 
-    /// Bytes of one: where the localized tiles' begins.
-    pub(crate) const DRAW: u64 = 4 * Draw::COUNT as u64;
+impl Lists {
+    /// Where the draw of the tiles that hold any surface begins.
+    pub(crate) const SEEN: u64 = 0;
+    /// The same of the plain ones.
+    pub(crate) const PLAIN: u64 = DRAW;
+    /// The same of the localized ones.
+    pub(crate) const LOCALIZED: u64 = 2 * DRAW;
+    /// Bytes of all.
+    pub(crate) const DRAWS: u64 = 3 * DRAW;
 
     /// With room for every tile of a frame.
     pub(crate) fn new(device: &Device, size: [u32; 2]) -> Result<Self, RenderError> {
@@ -72,16 +80,20 @@ impl Lists {
             BufferUsages::STORAGE | BufferUsages::INDIRECT | BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
         Ok(Self {
             draws: device.buffer("draws of tiles", Self::DRAWS, usage)?,
+            seen: list("tiles with surface")?,
             plain: list("plain tiles")?,
             localized: list("localized tiles")?,
             count,
         })
     }
 
-    /// How long both lists are, from what was read back.
-    pub(crate) fn lengths(read: &[u8]) -> [u32; 2] {
-        let word = |at: usize| read.get(at..at + 4).map_or(0, bytemuck::pod_read_unaligned);
-        [word(4), word(4 + Self::DRAW as usize)]
+    /// How long all of them are, from what was read back: with surface, plain, localized.
+    pub(crate) fn lengths(read: &[u8]) -> [u32; 3] {
+        // The count is the second word of a draw.
+        [Self::SEEN, Self::PLAIN, Self::LOCALIZED].map(|draw| {
+            let at = draw as usize + 4;
+            read.get(at..at + 4).map_or(0, bytemuck::pod_read_unaligned)
+        })
     }
 }
 
@@ -89,14 +101,17 @@ impl Lists {
 #[derive(Debug)]
 pub(crate) struct TilesPass {
     layout: wgpu::BindGroupLayout,
-    /// By what is in the frame: `[discoloration][everything]`.
-    pipelines: [[wgpu::ComputePipeline; 2]; 2],
+    /// By whether every tile is listed.
+    seen: [wgpu::ComputePipeline; 2],
+    /// By what else is in the frame: `[discoloration][every tile]`.
+    skin: [[wgpu::ComputePipeline; 2]; 2],
 }
 
 /// What it works with in a frame.
 #[derive(Debug)]
 pub(crate) struct TilesStep<'a> {
-    pipeline: &'a wgpu::ComputePipeline,
+    seen: &'a wgpu::ComputePipeline,
+    skin: &'a wgpu::ComputePipeline,
     group: wgpu::BindGroup,
     tiles: [u32; 2],
 }
@@ -104,19 +119,20 @@ pub(crate) struct TilesStep<'a> {
 impl TilesPass {
     /// Compiles it.
     pub(crate) fn new(device: &Device) -> Result<Self, RenderError> {
+        let (texture, list) = (Bound::Texture, Bound::Write);
         let least = Bound::Uniform(4 * Screen::COUNT as u64);
-        let bound = [least, Bound::Texture, Bound::Texture, Bound::Write, Bound::Write, Bound::Write];
+        let bound = [least, texture, texture, list, list, list, Bound::Faces, list];
         let layout = layout(device, "tiles", ShaderStages::COMPUTE, &bound)?;
         let whole = pipeline_layout(device, "tiles", &[&layout])?;
         let module = device.shader("tiles")?;
-        let make = |discoloration: f64, everything: f64| {
+        let make = |entry: &str, discoloration: f64, everything: f64| {
             let constants = [("DISCOLORATION", discoloration), ("EVERYTHING", everything)];
             device.guarded("tiles", || {
                 device.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                    label: Some("tiles"),
+                    label: Some(entry),
                     layout: Some(&whole),
                     module: &module,
-                    entry_point: Some("list"),
+                    entry_point: Some(entry),
                     compilation_options: wgpu::PipelineCompilationOptions {
                         constants: &constants,
                         ..Default::default()
@@ -125,8 +141,11 @@ impl TilesPass {
                 })
             })
         };
-        let pair = |discoloration: f64| Ok([make(discoloration, 0.0)?, make(discoloration, 1.0)?]);
-        Ok(Self { layout, pipelines: [pair(0.0)?, pair(1.0)?] })
+        let pair = |entry: &str, discoloration: f64| {
+            Ok([make(entry, discoloration, 0.0)?, make(entry, discoloration, 1.0)?])
+        };
+        let skin = [pair("list_skin", 0.0)?, pair("list_skin", 1.0)?];
+        Ok(Self { layout, seen: pair("list_seen", 0.0)?, skin })
     }
 
     /// Gets ready for a frame.
@@ -141,7 +160,7 @@ impl TilesPass {
         let record = Screen { size: targets.size, across: tiles[0], unused: 0 };
         let screen = screen.put(device, &bytes(&[record]))?;
         let draw = Draw { vertex_count: 6, ..Draw::default() };
-        device.write(&targets.lists.draws, 0, &bytes(&[draw, draw]))?;
+        device.write(&targets.lists.draws, 0, &bytes(&[draw; 3]))?;
         let (diffuse, lists) = (view(&targets.diffuse), &targets.lists);
         let resources = [
             screen.as_entire_binding(),
@@ -150,21 +169,36 @@ impl TilesPass {
             lists.draws.as_entire_binding(),
             lists.plain.as_entire_binding(),
             lists.localized.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&targets.faces),
+            lists.seen.as_entire_binding(),
         ];
         let group = group(device, "tiles", &self.layout, &resources)?;
-        let pipeline = &self.pipelines[usize::from(job.switches.discoloration)][usize::from(job.everything)];
-        Ok(TilesStep { pipeline, group, tiles })
+        let every = usize::from(job.everything);
+        let skin = &self.skin[usize::from(job.switches.discoloration)][every];
+        Ok(TilesStep { seen: &self.seen[every], skin, group, tiles })
     }
 }
 
 impl TilesStep<'_> {
-    /// Lists the tiles of the frame.
-    pub(crate) fn record(&self, encoder: &mut wgpu::CommandEncoder, stamps: Stamps<'_>) {
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-            label: Some("list tiles"),
-            timestamp_writes: stamps.first(),
-        });
-        pass.set_pipeline(self.pipeline);
+    /// Lists the tiles that hold any surface, at the end of a pass.
+    pub(crate) fn list_seen(&self, encoder: &mut wgpu::CommandEncoder, stamps: Stamps<'_>) {
+        self.list(encoder, self.seen, stamps.compute(false));
+    }
+
+    /// Lists the tiles that hold skin, at the beginning of a pass.
+    pub(crate) fn list_skin(&self, encoder: &mut wgpu::CommandEncoder, stamps: Stamps<'_>) {
+        self.list(encoder, self.skin, stamps.compute(true));
+    }
+
+    fn list(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        pipeline: &wgpu::ComputePipeline,
+        timestamp_writes: Option<wgpu::ComputePassTimestampWrites<'_>>,
+    ) {
+        let mut pass = encoder
+            .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("list tiles"), timestamp_writes });
+        pass.set_pipeline(pipeline);
         pass.set_bind_group(0, &self.group, &[]);
         pass.dispatch_workgroups(self.tiles[0], self.tiles[1], 1);
     }

@@ -51,30 +51,21 @@ impl<'a> Stamps<'a> {
         Self(None)
     }
 
-    /// For the only render pass of a pass.
-    pub(crate) fn whole(self) -> Option<wgpu::RenderPassTimestampWrites<'a>> {
+    /// For a render pass with which a pass begins, ends, or both.
+    pub(crate) fn render(self, begins: bool, ends: bool) -> Option<wgpu::RenderPassTimestampWrites<'a>> {
         self.0.map(|(query_set, first)| wgpu::RenderPassTimestampWrites {
             query_set,
-            beginning_of_pass_write_index: Some(first),
-            end_of_pass_write_index: Some(first + 1),
+            beginning_of_pass_write_index: begins.then_some(first),
+            end_of_pass_write_index: ends.then_some(first + 1),
         })
     }
 
-    /// For the compute pass with which a pass begins.
-    pub(crate) fn first(self) -> Option<wgpu::ComputePassTimestampWrites<'a>> {
+    /// For a compute pass with which it begins, or ends.
+    pub(crate) fn compute(self, begins: bool) -> Option<wgpu::ComputePassTimestampWrites<'a>> {
         self.0.map(|(query_set, first)| wgpu::ComputePassTimestampWrites {
             query_set,
-            beginning_of_pass_write_index: Some(first),
-            end_of_pass_write_index: None,
-        })
-    }
-
-    /// For the render pass with which it ends.
-    pub(crate) fn last(self) -> Option<wgpu::RenderPassTimestampWrites<'a>> {
-        self.0.map(|(query_set, first)| wgpu::RenderPassTimestampWrites {
-            query_set,
-            beginning_of_pass_write_index: None,
-            end_of_pass_write_index: Some(first + 1),
+            beginning_of_pass_write_index: begins.then_some(first),
+            end_of_pass_write_index: (!begins).then_some(first + 1),
         })
     }
 }

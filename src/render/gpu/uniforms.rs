@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::lens::Lens;
 use super::record::record;
+use super::tiles::tiles;
 use crate::canvas::frame::{FrameJob, Light};
 use crate::canvas::look::Law;
 use crate::render::kernel::PROFILE;
@@ -12,9 +13,16 @@ use crate::render::srgb;
 record! {
     /// The scene, as `skin.wgsl` says.
     Scene {
-        clip: [[f32; 4]; 4],
         eye: [f32; 3],
         light_count: u32,
+        ray: [f32; 3],
+        across: u32,
+        ray_across: [f32; 3],
+        unused: f32,
+        ray_down: [f32; 3],
+        padding: f32,
+        size: [u32; 2],
+        spare: [u32; 2],
         forward: [f32; 4],
         albedo: [f32; 3],
         bumpiness: f32,
@@ -58,14 +66,19 @@ record! {
 }
 
 /// The scene of a frame with so many lights.
-pub(crate) fn scene(job: &FrameJob<'_>, lens: &Lens, lights: usize) -> Scene {
+pub(crate) fn scene(job: &FrameJob<'_>, lights: usize) -> Scene {
+    let [ray, ray_across, ray_down] = Lens::rays(&job.view);
     let (skin, ambient) = (&job.look.skin, &job.look.ambient);
     let wide = |[x, y, z]: [f32; 3]| [x, y, z, 0.0];
     Scene {
-        clip: lens.clip(),
+        ray,
+        across: tiles(job.view.size)[0],
+        ray_across,
+        ray_down,
+        size: job.view.size,
         eye: near(job.view.eye, job.origin),
         light_count: lights as u32,
-        forward: lens.depth(),
+        forward: Lens::of_view(&job.view, job.origin).depth(),
         albedo: srgb::decode_color(skin.albedo),
         bumpiness: skin.bumpiness,
         intensity: skin.intensity,
@@ -74,6 +87,7 @@ pub(crate) fn scene(job: &FrameJob<'_>, lens: &Lens, lights: usize) -> Scene {
         reflectance: skin.reflectance,
         irradiance: ambient.irradiance.map(|color| wide(color.map(|c| c * ambient.intensity))),
         tissue: job.look.wound.tissue.map(wide),
+        ..Scene::default()
     }
 }
 

@@ -4,7 +4,7 @@ use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga::{AddressSpace, Module, TypeInner};
 
 use crate::render::gpu::shaders::{SHADERS, named};
-use crate::render::gpu::{compose, scatter, shadow, tiles, uniforms};
+use crate::render::gpu::{compose, scatter, shadow, tiles, uniforms, visible};
 
 /// A shader, parsed.
 fn parsed(name: &str) -> Module {
@@ -59,6 +59,7 @@ fn of_rust(fields: &[(&'static str, usize)]) -> Table {
 #[test]
 fn every_struct_lies_as_the_shader_reads_it() {
     let tables = [
+        ("visible", visible::Viewer::table()),
         ("shadow", shadow::Caster::table()),
         ("skin", uniforms::Scene::table()),
         ("skin", uniforms::Lamp::table()),
@@ -68,7 +69,7 @@ fn every_struct_lies_as_the_shader_reads_it() {
         ("scatter", scatter::Reach::table()),
         ("compose", compose::Backdrop::table()),
     ];
-    assert_laid_out(&tables, &["shadow", "skin", "tiles", "scatter", "compose"]);
+    assert_laid_out(&tables, &["visible", "shadow", "skin", "tiles", "scatter", "compose"]);
 }
 
 /// A shader, and a record's name and fields.

@@ -41,8 +41,10 @@ fn passes_say_why_they_were_not_done() {
     let mut ours = OnDevice::new(&device, &scene);
     let first = ours.frame(&scene);
     let ids: Vec<_> = first.passes.iter().map(|pass| pass.id.as_str()).collect();
-    let order =
-        ["upload", "shadow 0", "shadow 1", "shadow 2", "shadow 3", "skin", "scatter", "discolor", "compose"];
+    let order = [
+        "upload", "visible", "shadow 0", "shadow 1", "shadow 2", "shadow 3", "skin", "scatter", "discolor",
+        "compose",
+    ];
     assert_eq!(ids, order);
     assert_eq!(why(&first, "shadow 0"), None);
     assert_eq!(why(&first, "shadow 1"), Some("its cone misses the model"));
