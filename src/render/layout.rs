@@ -12,7 +12,7 @@
 
 use crate::canvas::job::{PaintFace, PaintJob, SKIRT};
 
-use super::spans::{self, Corners, PARTS, bounds, copies, doubled_area, place};
+use super::spans::{self, Corners, PARTS, bounds, doubled_area, each_copy, place};
 
 /// Texels along the side of a tile.
 pub const TILE: u32 = 64;
@@ -64,10 +64,12 @@ pub fn lay_out(job: &PaintJob, size: [u32; 2]) -> Layout {
     let faces = placed.iter().map(|face| (face.corners, face.at, false));
     let mut layout = Layout::default();
     for (corners, at, skirt) in skirts.chain(faces) {
-        for copy in copies(corners, size).filter(|copy| meets(*copy, size)) {
-            layout.triangles.push(Triangle { corners: copy.map(|c| c.map(texels)), at, skirt });
-            touch(&mut layout.tiles, copy, at, job, size);
-        }
+        each_copy(corners, size, |copy| {
+            if meets(copy, size) {
+                layout.triangles.push(Triangle { corners: copy.map(|c| c.map(texels)), at, skirt });
+                touch(&mut layout.tiles, copy, at, job, size);
+            }
+        });
     }
     layout.tiles.sort_unstable();
     layout.tiles.dedup();
@@ -158,8 +160,9 @@ impl Affine {
     /// (s, d) at a place in 1/256 of a texel.
     #[inline]
     pub fn at(&self, [x, y]: [i64; 2]) -> [f64; 2] {
-        let [x, y] = [(x - self.origin[0]) as f64, (y - self.origin[1]) as f64];
-        [0, 1].map(|k| self.value[k] + (self.gradient[k][0] * x + self.gradient[k][1] * y))
+        let (x, y) = ((x - self.origin[0]) as f64, (y - self.origin[1]) as f64);
+        let along = |k: usize| self.value[k] + (self.gradient[k][0] * x + self.gradient[k][1] * y);
+        [along(0), along(1)]
     }
 }
 

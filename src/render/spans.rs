@@ -91,12 +91,20 @@ pub fn place(uv: [Vec2; 3], size: [u32; 2]) -> Option<Corners> {
     (fits && doubled_area(corners) != 0).then(|| shifted(corners, by))
 }
 
-/// The triangle moved by whole maps to each place where it may cover texels of the map, the one that lies farthest right and down first.
-pub fn copies(corners: Corners, size: [u32; 2]) -> impl Iterator<Item = Corners> {
+/// Moves a triangle by whole maps to each place where it may cover texels of the map, the one that lies farthest right and down first.
+#[inline]
+pub fn each_copy(corners: Corners, size: [u32; 2], mut each: impl FnMut(Corners)) {
     let maps = size.map(|side| i64::from(side) * PARTS);
     let [least, most] = bounds(corners);
-    let [across, down] = [0, 1].map(|k| least[k].div_euclid(maps[k])..=most[k].div_euclid(maps[k]));
-    down.flat_map(move |j| across.clone().map(move |i| shifted(corners, [-i * maps[0], -j * maps[1]])))
+    let on_map = |v: [i64; 2]| (0..maps[0]).contains(&v[0]) && (0..maps[1]).contains(&v[1]);
+    if on_map(least) && on_map(most) {
+        return each(corners);
+    }
+    for j in least[1].div_euclid(maps[1])..=most[1].div_euclid(maps[1]) {
+        for i in least[0].div_euclid(maps[0])..=most[0].div_euclid(maps[0]) {
+            each(shifted(corners, [-i * maps[0], -j * maps[1]]));
+        }
+    }
 }
 
 /// Tells each row of a window in which a triangle covers texels, and which columns those are.
@@ -140,10 +148,14 @@ impl Side {
     #[inline]
     fn clip(&self, row: i64, [from, to]: [i64; 2]) -> [i64; 2] {
         let rest = self.b * row + self.c;
+        let holds = |column: i64| self.a * column + rest >= 0;
+        // Most sides cut nothing off a small face's row, and need no division.
         match self.a {
+            0.. if holds(from) => [from, to],
+            ..0 if holds(to - 1) => [from, to],
             // The least i with a i ≥ −rest.
             1.. => [from.max(-rest.div_euclid(self.a)), to],
-            0 => [from, if rest >= 0 { to } else { from }],
+            0 => [from, from],
             // The greatest with −a i ≤ rest.
             _ => [from, to.min(rest.div_euclid(-self.a) + 1)],
         }

@@ -1,3 +1,5 @@
+//! Each check on what is right, and on faults that were planted.
+
 use glam::{Vec2, vec2};
 
 use super::*;

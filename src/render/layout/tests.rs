@@ -1,3 +1,5 @@
+//! Skirts by their definition, the order of drawing, tiles, and what is left out.
+
 use glam::{Vec2, vec2};
 
 use super::*;

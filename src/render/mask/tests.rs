@@ -1,3 +1,5 @@
+//! Which texels are the skin's.
+
 use glam::{DVec3, vec2};
 
 use super::*;

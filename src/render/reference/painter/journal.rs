@@ -21,7 +21,10 @@ pub(super) struct Tile {
 impl Tile {
     /// A tile as it is.
     pub(super) fn read(index: u32, color: &Image, discolor: &Image) -> Self {
-        let read = |map: &Image| rows(index, map.size).flat_map(|row| &map.texels[row]).copied().collect();
+        let read = |map: &Image| {
+            let rows: Vec<&[[u8; 4]]> = rows(index, map.size).map(|row| &map.texels[row]).collect();
+            rows.concat()
+        };
         Self { index, color: read(color), discolor: read(discolor) }
     }
 

@@ -7,6 +7,8 @@
 //!   6 t⁵ − 15 t⁴ + 10 t³; the hash is π(π(column) + row).
 //! - **Simplex**: the same of a triangle's three corners, each weighted by max(0, ½ − r²)⁴; the hash is π(π(row) + column).
 //!
+//! Many places are asked for at once: arrays of them are worked through in the processor's wide registers, with the same bits as one by one.
+//!
 //! The remainder is taken half a step off the integers, so no rounding of 1/289 can make 289 of 0: on any device a lattice point
 //! has the same hash.
 
@@ -21,16 +23,16 @@ const SKEW: f32 = 0.366_025_42;
 /// And what they are skewed back by, (3 − √3)/6.
 const UNSKEW: f32 = 0.211_324_87;
 
+/// Near this there are only integers, so adding and subtracting it rounds.
+const ROUNDER: f32 = 12_582_912.0;
+
 /// Without the call that `f32::floor` is where the processor's least instruction set has no such thing.
 #[inline]
 fn floor(x: f32) -> f32 {
-    // From here on there are only integers; a NaN is neither.
-    if x.abs() < 8_388_608.0 {
-        let whole = x as i32 as f32;
-        if whole > x { whole - 1.0 } else { whole }
-    } else {
-        x
-    }
+    let near = (x + ROUNDER) - ROUNDER;
+    let below = if near > x { near - 1.0 } else { near };
+    // Beyond, no lattice is fine enough to matter.
+    if x.abs() < 0.25 * ROUNDER { below } else { x }
 }
 
 #[inline]
@@ -80,6 +82,7 @@ pub(super) fn perlin([x, y]: [f32; 2]) -> f32 {
 }
 
 /// Simplex noise, within −1 … 1.
+#[inline(always)] // Or the places of an array are worked through one by one.
 pub(super) fn simplex([x, y]: [f32; 2]) -> f32 {
     let skew = (x + y) * SKEW;
     let (column, row) = (floor(x + skew), floor(y + skew));
@@ -99,14 +102,14 @@ pub(super) fn simplex([x, y]: [f32; 2]) -> f32 {
 }
 
 /// Noises of rising frequency and falling height, added (Lam 2016, Snippet 5.2).
-pub(super) fn fbm([x, y]: [f32; 2], noise: &Fbm) -> f32 {
-    let (mut sum, mut frequency, mut amplitude) = (0.0, noise.frequency, noise.amplitude);
+pub(super) fn fbm<const N: usize>(at: [[f32; 2]; N], noise: &Fbm) -> [f32; N] {
+    let (mut sums, mut frequency, mut amplitude) = ([0.0; N], noise.frequency, noise.amplitude);
     for _ in 0..noise.octaves.min(MOST_OCTAVES) {
-        sum += amplitude * simplex([x * frequency, y * frequency]);
+        sums.iter_mut().zip(at).for_each(|(sum, p)| *sum += amplitude * simplex(p.map(|v| v * frequency)));
         frequency *= noise.lacunarity;
         amplitude *= noise.persistence;
     }
-    sum
+    sums
 }
 
 #[cfg(test)]

@@ -3,6 +3,8 @@
 //! Two steps for each tile, tiles side by side: first (s, d) of every texel, each from the one triangle that has it; then what they
 //! do to the texel. What a tile becomes depends on no other tile.
 
+use std::array::from_fn;
+
 use rayon::prelude::*;
 
 use super::journal::Tile;
@@ -118,16 +120,16 @@ struct Brush<'a> {
 impl Brush<'_> {
     /// What a tile becomes; `None` if it stays as it is.
     fn apply(&self, index: u32, coordinates: &Coordinates, ground: Ground<'_>) -> Option<Tile> {
-        let mut tile = Tile::read(index, ground.color, ground.discolor);
-        let mut changed = false;
-        let texels = tile.color.iter_mut().zip(&mut tile.discolor).zip(&coordinates.at);
-        for ((color, discolor), at) in texels {
-            let Some(at) = at else { continue };
-            let after = (self.color(*at, *color), self.discolor(*at, *discolor));
-            changed |= after != (*color, *discolor);
-            (*color, *discolor) = after;
+        let before = Tile::read(index, ground.color, ground.discolor);
+        let mut tile = before.clone();
+        let mut spots = Vec::with_capacity(tile.color.len());
+        for (k, at) in coordinates.at.iter().enumerate() {
+            let Some(at) = *at else { continue };
+            tile.color[k] = self.color(at, tile.color[k]);
+            spots.extend(self.spot(k, at));
         }
-        changed.then_some(tile)
+        spots.chunks(LANES).for_each(|spots| self.discolor(spots, &mut tile.discolor));
+        (tile != before).then_some(tile)
     }
 
     /// The patch over a colour.
@@ -145,49 +147,66 @@ impl Brush<'_> {
         [over(0, r), over(1, g), over(2, b), under[3]]
     }
 
-    /// The stronger of a discoloration and the one that is there.
-    fn discolor(&self, [s, d]: [f32; 2], there: [u8; 4]) -> [u8; 4] {
-        let PaintJob { length, height, .. } = *self.job;
+    /// What the discoloration is at a texel but for its noise; `None` beyond it.
+    fn spot(&self, texel: usize, [s, d]: [f32; 2]) -> Option<Spot> {
+        let PaintJob { length, height, noise_scale, offset, .. } = *self.job;
         let t = 2.0 * (s / length).clamp(0.0, 1.0) - 1.0;
         let radius = 0.5 * height * (1.0 - 0.5 * t * t);
         let beyond = (-s).max(s - length).max(0.0);
         let distance = (beyond * beyond + d * d).sqrt();
         let most = 1.0 - distance / (2.0 * radius);
-        // Of a NaN it is not known to be more.
-        let reached = most > 0.0;
-        if !reached {
-            return there;
-        }
-        let alpha = byte(self.strength([s, d], most, 1.1 - distance / radius));
-        let [r, g, b] = self.job.factor.map(|f| byte(0.5 * f));
-        if alpha > there[3] { [r, g, b, alpha] } else { there }
+        let core = (1.1 - distance / radius).max(0.0);
+        let noise_at = [noise_scale * s + offset[0], noise_scale * d + offset[1]];
+        // A NaN is not more.
+        (most > 0.0).then_some(Spot { texel, noise_at, most, core })
     }
 
-    /// α of the discoloration: noise up to `most`, and `core` more.
-    fn strength(&self, [s, d]: [f32; 2], most: f32, core: f32) -> f32 {
-        let core = core.max(0.0);
-        if core >= 1.0 {
-            // Whatever the noise adds.
-            return 1.0;
+    /// Puts a discoloration where it is stronger than what is there.
+    fn discolor(&self, spots: &[Spot], texels: &mut [[u8; 4]]) {
+        let at = |k: usize| spots[k.min(spots.len() - 1)].noise_at;
+        let noises = fbm(from_fn::<_, LANES, _>(at), &self.job.noise);
+        let [r, g, b] = self.job.factor.map(|f| byte(0.5 * f));
+        for (spot, noise) in spots.iter().zip(noises) {
+            let alpha = byte((noise.max(0.0).min(spot.most) + spot.core).min(1.0));
+            let texel = &mut texels[spot.texel];
+            if alpha > texel[3] {
+                *texel = [r, g, b, alpha];
+            }
         }
-        let (scale, [ox, oy]) = (self.job.noise_scale, self.job.offset);
-        let noise = fbm([scale * s + ox, scale * d + oy], &self.job.noise);
-        (noise.max(0.0).min(most) + core).min(1.0)
     }
 }
 
+/// Texels whose noise is looked up at once.
+const LANES: usize = 8;
+
+/// A texel that is discoloured.
+struct Spot {
+    /// Its place in the tile.
+    texel: usize,
+    noise_at: [f32; 2],
+    /// What the noise may add to α at most.
+    most: f32,
+    /// α without it.
+    core: f32,
+}
+
 /// The patch between its four nearest texels, in 1/255.
+#[inline]
 fn bilinear(patch: &Image, at: [f32; 2]) -> [f32; 4] {
-    let [(x, right, tx), (y, below, ty)] = [0, 1].map(|k| {
-        let last = patch.size[k] - 1;
-        let place = at[k] * last as f32;
-        let first = (place as u32).min(last);
-        (first, (first + 1).min(last), place - first as f32)
-    });
-    let row = |y: u32| {
-        let (left, right) = (patch.at(x, y), patch.at(right, y));
-        [0, 1, 2, 3].map(|k| f32::from(left[k]) + (f32::from(right[k]) - f32::from(left[k])) * tx)
-    };
-    let (upper, lower) = (row(y), row(below));
-    [0, 1, 2, 3].map(|k| upper[k] + (lower[k] - upper[k]) * ty)
+    let (x, right, tx) = between(at[0], patch.size[0]);
+    let (y, below, ty) = between(at[1], patch.size[1]);
+    let corners = [(x, y), (right, y), (x, below), (right, below)];
+    let [a, b, c, d] = corners.map(|(x, y)| patch.at(x, y).map(f32::from));
+    let mix = |a: f32, b: f32, t: f32| a + (b - a) * t;
+    let channel = |k: usize| mix(mix(a[k], b[k], tx), mix(c[k], d[k], tx), ty);
+    [channel(0), channel(1), channel(2), channel(3)]
+}
+
+/// The texels on both sides of a place from 0 to 1 on n texels, and how far it is from the first to the second.
+#[inline]
+fn between(at: f32, n: u32) -> (u32, u32, f32) {
+    let last = n - 1;
+    let place = at * last as f32;
+    let first = (place as u32).min(last);
+    (first, (first + 1).min(last), place - first as f32)
 }

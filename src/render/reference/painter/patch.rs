@@ -1,7 +1,9 @@
 //! GP: the wound patch (Lam 2016, §5.3.1), as [`canvas::job`](crate::canvas::job) defines it.
 //!
 //! What depends on x alone is worked out once for each column: how far the layers reach, and the colours at their edges, which the
-//! fades take up. Rows are made side by side.
+//! fades take up. Rows are made side by side, a few columns at once.
+
+use std::array::from_fn;
 
 use rayon::prelude::*;
 
@@ -22,11 +24,35 @@ pub(super) fn patch(job: &PatchJob) -> Image {
     let [w, h] = job.size;
     let columns: Vec<Column> = (0..w).map(|i| Column::new(job, place(i, w))).collect();
     let mut image = Image::filled(job.size, [0; 4]);
-    image.texels.par_chunks_mut((w as usize).max(1)).zip(0u32..h).for_each(|(row, j)| {
-        let y = place(j, h);
-        row.iter_mut().zip(&columns).for_each(|(texel, column)| *texel = column.texel(job, y));
-    });
     image
+        .texels
+        .par_chunks_mut((w as usize).max(1))
+        .zip(0u32..h)
+        .for_each(|(texels, j)| row(job, &columns, j, texels));
+    image
+}
+
+/// Columns whose noise is looked up at once.
+const LANES: usize = 8;
+
+/// Makes a row.
+fn row(job: &PatchJob, columns: &[Column], j: u32, texels: &mut [[u8; 4]]) {
+    let y = place(j, job.size[1]);
+    let distance = (y - 0.5).abs();
+    for (texels, columns) in texels.chunks_mut(LANES).zip(columns.chunks(LANES)) {
+        let seen = columns.iter().any(|column| distance < column.outer);
+        let at = |k: usize| [columns[k.min(columns.len() - 1)].x, y];
+        let outer = if seen { outer(job, from_fn::<_, LANES, _>(at)) } else { [[0.0; 3]; LANES] };
+        for ((texel, column), outer) in texels.iter_mut().zip(columns).zip(outer) {
+            *texel = bytes(column.color(job.palette[0], y, outer));
+        }
+    }
+}
+
+/// A colour with the alpha multiplied in.
+fn bytes((color, alpha): (Color, f32)) -> [u8; 4] {
+    let [r, g, b] = color.map(|c| byte(c * alpha));
+    [r, g, b, byte(alpha)]
 }
 
 /// Where the k-th of n texels stands.
@@ -45,10 +71,10 @@ fn mix(a: Color, b: Color, t: f32) -> Color {
     [0, 1, 2].map(|k| a[k] + (b[k] - a[k]) * t)
 }
 
-/// c: the outer layer's colour.
-fn outer(job: &PatchJob, x: f32, y: f32) -> Color {
-    let noise = fbm([x + job.offset[0], y + job.offset[1]], &job.noise);
-    mix(job.palette[1], job.palette[2], (0.5 + noise).clamp(0.0, 1.0))
+/// c: the outer layer's colour at some places.
+fn outer<const N: usize>(job: &PatchJob, at: [[f32; 2]; N]) -> [Color; N] {
+    let noises = fbm(at.map(|[x, y]| [x + job.offset[0], y + job.offset[1]]), &job.noise);
+    noises.map(|noise| mix(job.palette[1], job.palette[2], (0.5 + noise).clamp(0.0, 1.0)))
 }
 
 /// A column of the patch.
@@ -73,36 +99,32 @@ impl Column {
         let range = (height * noise).max(0.05) * (0.45 - 0.5 * square);
         let faded = (range + FADE) * (1.0 - square);
         let reach = 0.25 - 0.3 * (square * square);
-        let edge = |at: f32| [0.5 - at, 0.5 + at].map(|y| outer(job, x, y));
+        let edges = [0.5 - faded, 0.5 + faded, 0.5 - reach, 0.5 + reach];
+        let [inner_above, inner_below, above, below] = outer(job, edges.map(|y| [x, y]));
         Self {
             x,
             inner: ((x - 0.5).abs() < INNER_HALF).then_some([range, faded]),
             outer: reach,
-            inner_edge: edge(faded),
-            outer_edge: edge(reach),
+            inner_edge: [inner_above, inner_below],
+            outer_edge: [above, below],
         }
     }
 
-    fn texel(&self, job: &PatchJob, y: f32) -> [u8; 4] {
-        let (color, alpha) = self.color(job, y);
-        let [r, g, b] = color.map(|c| byte(c * alpha));
-        [r, g, b, byte(alpha)]
-    }
-
-    fn color(&self, job: &PatchJob, y: f32) -> (Color, f32) {
+    /// The colour at a height, and its alpha; `outer` is the outer layer's there.
+    fn color(&self, inner: Color, y: f32, outer: Color) -> (Color, f32) {
         let distance = (y - 0.5).abs();
         let side = usize::from(y > 0.5);
         if let Some([range, faded]) = self.inner {
             if distance < range {
-                return (job.palette[0], 1.0);
+                return (inner, 1.0);
             }
             if distance < faded {
                 let t = (distance - range) / (faded - range);
-                return (mix(job.palette[0], self.inner_edge[side], t), 1.0);
+                return (mix(inner, self.inner_edge[side], t), 1.0);
             }
         }
         if distance < self.outer {
-            return (outer(job, self.x, y), 1.0);
+            return (outer, 1.0);
         }
         if distance < self.outer + FADE {
             return (self.outer_edge[side], 1.0 - (distance - self.outer) / FADE);

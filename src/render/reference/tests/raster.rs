@@ -74,7 +74,7 @@ fn triangles_that_share_sides_cover_each_pixel_once() {
 }
 
 #[test]
-fn a_wall_through_the_eye_covers_its_half_of_the_picture_once() {
+fn a_wall_through_the_eye_covers_what_lies_before_it_once() {
     // From far behind the eye to far before it, and so wide that corners have to be clipped on all sides.
     let far = DVec3::new(-1e7, -1.0, 1e7);
     let mesh = kit::sheets(&[[far, DVec3::X * 2e7, DVec3::NEG_Z * 2e7]], Surface::Skin);
@@ -84,6 +84,17 @@ fn a_wall_through_the_eye_covers_its_half_of_the_picture_once() {
     drawn(&stage.mesh, &view).iter().for_each(|(at, _)| times[*at] += 1);
     assert!(times[..64 * 24].iter().all(|n| *n == 0), "the sky");
     assert!(times[64 * 24..].iter().all(|n| *n == 1), "the ground: {:?}", &times[64 * 24..]);
+}
+
+#[test]
+fn a_face_begins_where_it_is_near_enough() {
+    // A path on the ground, one unit below the eye, 77.6 / y away y pixels below the middle: nothing nearer than 4.8 is seen.
+    let path = [DVec3::new(-1.0, -1.0, -1.0), DVec3::X * 2.0, DVec3::NEG_Z * 40.0];
+    let mesh = kit::sheets(&[path], Surface::Skin);
+    let view = View { near: 4.8, ..kit::view([64, 48], 0.0) };
+    let rows = || drawn(&mesh, &view).into_iter().map(|(at, _)| at / 64);
+    assert_eq!([rows().min(), rows().max()], [Some(26), Some(39)]);
+    assert_eq!(rows().filter(|row| *row == 39).count(), 31, "at 5.0 the path is 31 pixels wide");
 }
 
 #[test]

@@ -52,8 +52,12 @@ fn specular_reflection_is_the_closed_form() {
     let mut stage = lit();
     stage.switches.specular = true;
     stage.look.skin.specular = 0.8;
-    for roughness in [0.02, 0.15, 0.35, 0.9] {
+    // The second lights the wall at a grazing angle, where Fresnel's term rises.
+    let lights = [stage.lights[0], kit::light(DVec3::new(6.0, 2.0, 0.9), DVec3::ZERO)];
+    for (roughness, light) in [0.02, 0.15, 0.35, 0.9].into_iter().flat_map(|m| lights.map(|light| (m, light)))
+    {
         stage.look.skin.roughness = roughness;
+        stage.lights = vec![light];
         let (layers, m) = (stage.layers(), f64::from(roughness).max(0.05_f32.into()));
         for pixel in PIXELS {
             let point = shown(&stage, pixel);

@@ -22,12 +22,13 @@ fn a_triangle_casts_its_shadow_on_a_wall() {
     let (mut dark, mut bright) = (0, 0);
     for at in (0..64 * 48).filter(|at| (bare.depth[*at] - 5.0).abs() < 1e-4 && bare.diffuse[*at][0] > 1e-3) {
         let point = stage.view.eye + stage.ray(at % 64, at / 64) * 5.0;
-        // How far inside the triangle the ray to the light passes, by its barycentric coordinates.
+        // How far inside the triangle the ray to the light passes, by its barycentric coordinates; the filter reaches 0.03.
         let (to, [a, b, c]) = (stage.lights[0].position - point, corners);
         let volume = |a: DVec3, b: DVec3, c: DVec3| {
             to.dot((a - point).cross(b - point)) / (c - point).dot((a - point).cross(b - point))
         };
-        let inside = volume(a, b, c).min(volume(b, c, a)).min(volume(c, a, b));
+        let parts = [volume(a, b, c), volume(b, c, a), volume(c, a, b)];
+        let inside = parts.iter().copied().fold(f64::INFINITY, f64::min) / parts.iter().sum::<f64>();
         let part = shaded.diffuse[at][0] / bare.diffuse[at][0];
         if inside > 0.05 {
             assert_eq!(part, 0.0, "in the shadow, at {point}");

@@ -1,3 +1,5 @@
+//! Both noises against known values, their range, their symmetries, and places that are too far out.
+
 use super::*;
 use crate::canvas::look::Fbm;
 
@@ -23,10 +25,10 @@ fn both_noises_are_those_of_the_formulas() {
 #[test]
 fn fbm_adds_octaves() {
     let noise = Fbm { octaves: 4, frequency: 4.0, amplitude: 0.5, lacunarity: 2.0, persistence: 0.5 };
-    assert!((fbm([0.3, 0.7], &noise) - 0.077694).abs() < 1e-4);
-    assert!((fbm([50.125, 17.625], &noise) + 0.320551).abs() < 1e-3);
+    assert!((fbm([[0.3, 0.7]], &noise)[0] - 0.077694).abs() < 1e-4);
+    assert!((fbm([[50.125, 17.625]], &noise)[0] + 0.320551).abs() < 1e-3);
     let one = Fbm { octaves: 1, ..noise };
-    assert_eq!(fbm([0.3, 0.7], &one), 0.5 * simplex([1.2, 2.8]));
+    assert_eq!(fbm([[0.3, 0.7]], &one), [0.5 * simplex([1.2, 2.8])]);
 }
 
 /// Places all over, the same in every run.
@@ -70,11 +72,20 @@ fn neighbouring_cells_meet() {
 }
 
 #[test]
+fn places_at_once_are_as_places_one_by_one() {
+    let noise = Fbm::default();
+    let all: Vec<[f32; 2]> = places().take(64).collect();
+    for eight in all.as_chunks::<8>().0 {
+        assert_eq!(fbm(*eight, &noise), eight.map(|p| fbm([p], &noise)[0]));
+    }
+}
+
+#[test]
 fn nothing_is_too_far_out() {
     for v in [3e9, -3e9, 1e30, f32::MAX, f32::INFINITY, f32::NAN] {
         let wild = Fbm { octaves: u32::MAX, frequency: v, ..Fbm::default() };
         // Only that it ends, and does not panic: such a place has no noise to speak of.
-        let _ = (perlin([v, 0.5]), simplex([v, v]), fbm([0.5, v], &wild));
+        let _ = (perlin([v, 0.5]), simplex([v, v]), fbm([[0.5, v]], &wild));
     }
     assert_eq!(
         [floor(-0.5), floor(-2.0), floor(2.999), floor(-8_388_609.0)],

@@ -22,7 +22,7 @@ fn formula(job: &PatchJob, [i, j]: [u32; 2]) -> Option<[f64; 4]> {
     let [of_inner, dark, light] = job.palette.map(|c| c.map(f64::from));
     let mix = |a: [f64; 3], b: [f64; 3], t: f64| [0, 1, 2].map(|k| a[k] * (1.0 - t) + b[k] * t);
     let c = |y: f64| {
-        let noise = f64::from(fbm([(x + ox) as f32, (y + oy) as f32], &job.noise));
+        let noise = f64::from(fbm([[(x + ox) as f32, (y + oy) as f32]], &job.noise)[0]);
         mix(dark, light, (0.5 + noise).clamp(0.0, 1.0))
     };
     let side = if y > 0.5 { 1.0 } else { -1.0 };
@@ -142,7 +142,7 @@ fn texels_are_what_their_coordinates_say() {
         let away = d.hypot_to((-s).max(s - length).max(0.0));
         let most = 1.0 - away / (2.0 * radius);
         let place = [s, d].map(|v| v as f32 * job.noise_scale);
-        let noise = f64::from(fbm([place[0] + job.offset[0], place[1] + job.offset[1]], &job.noise));
+        let noise = f64::from(fbm([[place[0] + job.offset[0], place[1] + job.offset[1]]], &job.noise)[0]);
         let alpha = (noise.max(0.0).min(most) + (1.1 - away / radius).max(0.0)).clamp(0.0, 1.0);
         let found = painter.discolor().at(x, y);
         let expected = if most > 0.0 { 255.0 * alpha } else { 0.0 };
