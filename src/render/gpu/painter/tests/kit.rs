@@ -29,7 +29,7 @@ fn uv(chart: u32, p: Vec2) -> Vec2 {
 
 /// Corners of the grid are moved aside, so that nothing lies on the texels' grid, but for those on borders.
 fn grid(i: u32, j: u32) -> Vec2 {
-    let aside = |k: u32, span: u32| if k % span == 0 { 0.0 } else { 0.3 };
+    let aside = |k: u32, span: u32| if k.is_multiple_of(span) { 0.0 } else { 0.3 };
     let wave = |k: u32| (k * 7 % 5) as f32 / 5.0 - 0.4;
     vec2(i as f32 + aside(i, SIDE) * wave(i + 3 * j), j as f32 + aside(j, SIDE) * wave(j + 2 * i))
         / SIDE as f32
