@@ -13,6 +13,7 @@ use super::timing::Recorder;
 use crate::canvas::RenderError;
 use crate::canvas::frame::FrameJob;
 use crate::canvas::look::Background;
+use crate::render::sat;
 
 record! {
     /// What is behind the model.
@@ -101,7 +102,6 @@ impl ComposePass {
 
 /// The texel behind the model.
 pub(crate) fn background(Background([r, g, b]): Background) -> [u8; 4] {
-    // A NaN counts as 0, which max() makes of it.
-    let byte = |channel: f32| (255.0 * channel.max(0.0).min(1.0) + 0.5) as u8;
+    let byte = |channel: f32| (255.0 * sat(channel) + 0.5) as u8;
     [byte(r), byte(g), byte(b), 255]
 }

@@ -81,13 +81,14 @@ impl Studio for Gpu {
         let (device, passes) = (self.device.clone(), self.passes.clone());
         let painter = Painter::sharing(device.clone(), &self.painting, &maps, mesh)?;
         let frames = Frames::new(device.clone(), passes, &maps)?;
-        Ok(Box::new(OnGpu { device, painter, frames }))
+        Ok(Box::new(OnGpu { device, maps, painter, frames }))
     }
 }
 
 /// Renders a scene on a GPU.
 struct OnGpu {
     device: Arc<Device>,
+    maps: Arc<Maps>,
     painter: Painter,
     frames: Frames,
 }
@@ -122,6 +123,11 @@ impl Renderer for OnGpu {
     }
 
     fn map(&mut self, map: MapId) -> Result<Image, RenderError> {
-        self.painter.map(map)
+        match map {
+            MapId::Color | MapId::Discolor => self.painter.map(map),
+            MapId::Normal => Ok(self.maps.normal.clone()),
+            MapId::Occlusion => Ok(self.maps.occlusion.clone()),
+            MapId::Specular => Ok(self.maps.specular.clone()),
+        }
     }
 }
