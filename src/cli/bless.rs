@@ -46,12 +46,13 @@ fn show(report: &BlessReport, dry_run: bool, to: &mut Channel<'_>) -> io::Result
 }
 
 fn show_gates(report: &GaugeReport, dry_run: bool, to: &mut Channel<'_>) -> io::Result<()> {
-    let GaugeReport { adapter, file, images, before, measured, errors } = report;
+    let GaugeReport { adapter, file, images, before, measured, worst, errors } = report;
     errors.iter().try_for_each(|problem| writeln!(to, "{} {problem}", to.bad("problem:")))?;
     if *images > 0 {
         let before = before.map_or("nothing".into(), |before| before.to_string());
         writeln!(to, "{adapter}, {images} pictures: {measured}; before: {before}")?;
     }
+    worst.iter().try_for_each(|(metric, picture)| writeln!(to, "worst by {metric}: {picture}"))?;
     let verb = match (errors.is_empty(), dry_run) {
         (false, _) => "not written",
         (true, true) => "would be written",

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::bless::BlessOptions;
 use super::golden::{Found, Stored};
-use super::image::{Distance, Known, Skin, measure, prove};
+use super::image::{Distance, Known, Metric, Skin, measure, prove};
 use super::one::{Failure, Open, open_file, run};
 use super::suite::{Recordings, find, in_parallel, read_gates};
 use super::{Progress, facts, home};
@@ -32,6 +32,8 @@ pub struct GaugeReport {
     pub before: Option<Distance>,
     /// The worst distance of any picture.
     pub measured: Distance,
+    /// By measure: the picture that is worst by it, as `RECORDING CHECKPOINT`.
+    pub worst: Vec<(Metric, String)>,
     /// Why nothing was written.
     pub errors: Vec<String>,
 }
@@ -94,7 +96,9 @@ fn file(found: &Recordings) -> Result<PathBuf, String> {
 /// What some recordings' pictures are like, compared with their goldens.
 #[derive(Default)]
 struct Look {
-    worst: Distance,
+    /// By measure, the worst of them and whose it is; none where all are equal.
+    worst: Vec<(Metric, f64, String)>,
+    measured: Distance,
     /// The goldens' files, and the colour behind the model.
     goldens: Vec<(PathBuf, [u8; 4])>,
     errors: Vec<String>,
@@ -117,14 +121,29 @@ impl Look {
         for (name, golden) in &stored.pictures {
             let Some(frame) = found.frame(name) else { continue };
             let skin = Skin::of(&golden.image, frame.background);
-            look.worst = look.worst.max(&measure(&golden.image, &frame.frame.image, &skin).distance);
+            let distance = measure(&golden.image, &frame.frame.image, &skin).distance;
+            let whose = format!("{} {name}", home::name(path));
+            look.take(Metric::ALL.into_iter().map(|metric| (metric, distance.get(metric), whose.clone())));
+            look.measured = look.measured.max(&distance);
             look.goldens.push((folder.join(home::checkpoint_picture(name)), frame.background));
         }
         look
     }
 
+    /// Keeps what is worse by its measure than what is known.
+    fn take(&mut self, distances: impl Iterator<Item = (Metric, f64, String)>) {
+        for (metric, value, whose) in distances {
+            match self.worst.iter_mut().find(|(known, ..)| *known == metric) {
+                Some(known) if value > known.1 => *known = (metric, value, whose),
+                None if value > 0.0 => self.worst.push((metric, value, whose)),
+                _ => {}
+            }
+        }
+    }
+
     fn add(&mut self, other: Self) {
-        self.worst = self.worst.max(&other.worst);
+        self.take(other.worst.into_iter());
+        self.measured = self.measured.max(&other.measured);
         self.goldens.extend(other.goldens);
         self.errors.extend(other.errors);
     }
@@ -147,7 +166,8 @@ fn enter(look: Look, file: &Path, adapter: &Adapter, options: &BlessOptions) -> 
     let mut report = GaugeReport {
         file: file.display().to_string(),
         images: look.goldens.len(),
-        measured: look.worst,
+        measured: look.measured,
+        worst: look.worst.iter().map(|(metric, _, whose)| (*metric, whose.clone())).collect(),
         ..GaugeReport::default()
     };
     report.errors.clone_from(&look.errors);
@@ -162,7 +182,7 @@ fn enter(look: Look, file: &Path, adapter: &Adapter, options: &BlessOptions) -> 
     report.before = known.map(|known| known.measured);
     report.adapter = known.map_or_else(|| pattern(&adapter.name), |known| known.adapter.clone());
     let reason = facts::one_line(&options.reason);
-    let entry = Known { adapter: report.adapter.clone(), reason, measured: look.worst };
+    let entry = Known { adapter: report.adapter.clone(), reason, measured: look.measured };
     match entry.gate() {
         Ok(gate) => report.errors.extend(look.insensitive(&gate)),
         Err(error) => report.errors.push(error.to_string()),

@@ -2,7 +2,8 @@
 //!
 //! - **tile**: the mean absolute difference in the worst 16 × 16 tile, in its worst channel: a hole or a crack, wherever it is;
 //! - **outliers**: how many pixels are off by more than 8 in any channel: what is small and wrong at once. Noise has none;
-//! - **tone**: the mean signed difference over the skin, in the worst channel: noise cancels out, a wrong constant does not;
+//! - **tone**: the mean signed difference over the skin, in the worst channel: noise cancels out, a wrong constant does not. Of a few pixels
+//!   it would be noise again, so there the sum is divided by more than there are;
 //! - **structure**: 1 − the hybrid score of image-compare (structural similarity of the luma in 8 × 8 windows, and the chroma's RMS).
 //!   It tells a picture that is moved or blurred as a whole.
 //!
@@ -23,6 +24,8 @@ use crate::canvas::image::Image;
 
 /// Pixels along a tile.
 const TILE: u32 = 16;
+/// Pixels of skin that have a tone: a hole's worth.
+const TONED: u32 = 144;
 /// A pixel that is off by more than this in a channel is an outlier.
 const OUTLYING: u8 = 8;
 
@@ -42,7 +45,7 @@ pub enum Metric {
 
 impl Metric {
     /// All, the cheap ones first.
-    pub(super) const ALL: [Self; 4] = [Self::Tile, Self::Outliers, Self::Tone, Self::Structure];
+    pub(crate) const ALL: [Self; 4] = [Self::Tile, Self::Outliers, Self::Tone, Self::Structure];
 }
 
 impl fmt::Display for Metric {
@@ -174,7 +177,7 @@ impl Sums {
     fn measured(&self, golden: &Image, skin: &Skin) -> Measured {
         let (tile, worst_tile) = self.worst_tile(golden.size);
         let shift = self.tone.iter().map(|sum| sum.unsigned_abs()).max().unwrap_or(0);
-        let tone = shift as f64 / f64::from(skin.pixels.max(1));
+        let tone = shift as f64 / f64::from(skin.pixels.max(TONED));
         Measured { distance: Distance { tile, outliers: self.outliers, tone, structure: 0.0 }, worst_tile }
     }
 

@@ -189,6 +189,7 @@ fn a_device_passes_within_its_gate_and_fails_beyond_it() {
     assert_eq!((before.exit_code(), only(&before).images[0].gate.of.as_str()), (1, "no adapter is known"));
     let gauged = suite.gauge_by(&near, true);
     assert_eq!((gauged.exit_code(), gauged.images, gauged.before), (0, 1, None), "{gauged:?}");
+    assert_eq!(gauged.worst[0], (Metric::Tile, "wound/square-0 cut".into()), "{gauged:?}");
     assert!(!suite.at("golden/gates.json").exists(), "a dry run writes nothing");
     assert_eq!(suite.gauge_by(&near, false).adapter, "llvmpipe*");
     let report = suite.verify_by(&near);
