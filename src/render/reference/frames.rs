@@ -103,7 +103,9 @@ impl Frames {
         let lights =
             job.lights.iter().zip(&self.shadows).filter(|(light, _)| light.reaches || job.everything);
         let read = reads_shadows(job);
-        let lamps = lights.map(|(light, map)| Lamp { light, map: map.as_ref().filter(|_| read) }).collect();
+        let lamps = lights
+            .map(|(light, map)| Lamp::new(light, map.as_ref().filter(|_| read), job.view.eye))
+            .collect();
         let shading = Shading {
             mesh: job.mesh,
             drawing,

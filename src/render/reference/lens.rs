@@ -47,6 +47,18 @@ impl Lens {
         Self { eye, axes: [right * focal, up * -focal, forward], focal, size, near: near.max(1e-30), far }
     }
 
+    /// The same for points that are given relative to a place.
+    #[must_use]
+    pub(crate) fn around(&self, place: DVec3) -> Self {
+        Self { eye: self.eye - place, ..*self }
+    }
+
+    /// A point, relative to the eye.
+    #[inline]
+    pub(crate) fn from_eye(&self, point: DVec3) -> DVec3 {
+        point - self.eye
+    }
+
     /// A point as it is seen.
     #[inline]
     pub(crate) fn see(&self, point: DVec3) -> DVec3 {

@@ -5,7 +5,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::shadow::ShadowMap;
+use super::shadow::{ShadowMap, ShadowsAround};
 use super::surface::{Material, Point};
 use crate::canvas::frame::{FrameJob, Light};
 use crate::canvas::look::{Ambient, Law, Look};
@@ -30,17 +30,24 @@ impl<const SPECULAR: bool, const TRANSMITTED: bool> Parts for With<SPECULAR, TRA
 
 /// A light, and its shadow map if anything reads it.
 pub(crate) struct Lamp<'a> {
-    /// The light.
-    pub(crate) light: &'a Light,
-    /// Its map.
-    pub(crate) map: Option<&'a ShadowMap>,
+    light: &'a Light,
+    /// Where it is, relative to the eye.
+    position: DVec3,
+    /// Its map, for points relative to the eye.
+    map: Option<ShadowsAround<'a>>,
+}
+
+impl<'a> Lamp<'a> {
+    /// A light with its map, seen from an eye.
+    pub(crate) fn new(light: &'a Light, map: Option<&'a ShadowMap>, eye: DVec3) -> Self {
+        Self { light, position: light.position - eye, map: map.map(|map| map.around(eye)) }
+    }
 }
 
 /// All light of a frame.
 pub(crate) struct Lighting<'a> {
     lamps: Vec<Lamp<'a>>,
     look: &'a Look,
-    eye: DVec3,
     /// Whether the maps cast shadows; else they are there for transmitted light alone.
     shadows: bool,
     /// A millimetre in model units.
@@ -86,7 +93,6 @@ impl<'a> Lighting<'a> {
         Self {
             lamps,
             look: job.look,
-            eye: job.view.eye,
             shadows: job.switches.shadows,
             millimetre: 0.1 / job.unit_cm,
             decay: PROFILE.map(|gaussian| (-1.0 / (per * gaussian.variance)) as f32),
@@ -96,11 +102,11 @@ impl<'a> Lighting<'a> {
 
     /// The light that leaves a point.
     pub(crate) fn at<P: Parts>(&self, point: &Point, material: &Material) -> Leaving {
-        let view = (self.eye - point.position).normalize_or_zero().as_vec3();
+        let view = (-point.position).normalize_or_zero().as_vec3();
         let site = Site { point, material, normal: point.normal.as_vec3(), view };
         let mut sum = Leaving { diffuse: self.ambient(material), specular: Vec3::ZERO };
         for lamp in &self.lamps {
-            let arriving = arriving(lamp.light, point.position);
+            let arriving = arriving(lamp, point.position);
             if arriving.light != Vec3::ZERO {
                 self.add::<P>(&mut sum, lamp, &site, &arriving);
             }
@@ -192,8 +198,8 @@ fn irradiated(harmonics: &[[f32; 3]; 9], n: Vec3) -> Vec3 {
 }
 
 /// A light at a point: colour (D₀/D)² smoothstep(cos outer, cos inner, −l · axis).
-fn arriving(light: &Light, point: DVec3) -> Arriving {
-    let to = light.position - point;
+fn arriving(&Lamp { light, position, .. }: &Lamp<'_>, point: DVec3) -> Arriving {
+    let to = position - point;
     let distance = to.length();
     let direction = to / distance;
     let inside = -direction.dot(light.basis[2]);

@@ -48,20 +48,14 @@ impl ShadowMap {
         Self { key, depth }
     }
 
+    /// The same for points that are given relative to a place.
+    pub(crate) fn around(&self, place: DVec3) -> ShadowsAround<'_> {
+        ShadowsAround { map: self, lens: self.key.lens.around(place) }
+    }
+
     /// Whether it is this one.
     pub(crate) fn is(&self, key: &Key) -> bool {
         self.key == *key
-    }
-
-    /// How much of the light arrives at a point, from 0 to 1.
-    pub(crate) fn lit(&self, point: DVec3, normal: DVec3, filter: u32) -> f32 {
-        let lens = &self.key.lens;
-        let size = f64::from(lens.size[0]);
-        let texel = 2.0 * lens.see(point).z * self.key.tan_half / size;
-        let seen = lens.see(point + normal * (1.5 * texel));
-        let place = lens.place(seen).filter(|place| place.iter().all(|x| x.abs() < 2.0 * size));
-        let Some(place) = place else { return 1.0 };
-        self.filtered(place, filter, (seen.z - 0.5 * texel) as f32)
     }
 
     /// The average of the looks around a place in the map.
@@ -97,15 +91,6 @@ impl ShadowMap {
         within.then(|| self.depth[(y * side + x) as usize])
     }
 
-    /// How far along its axis light has gone through the model before it comes to a point; `None` outside of the map.
-    pub(crate) fn thickness(&self, point: DVec3) -> Option<f64> {
-        let lens = &self.key.lens;
-        let seen = lens.see(point);
-        let size = f64::from(lens.size[0]);
-        let [x, y] = lens.place(seen).filter(|place| place.iter().all(|x| (0.0..size).contains(x)))?;
-        Some((seen.z - self.bilinear(x - 0.5, y - 0.5)).abs())
-    }
-
     /// The depth between four texels; at the border the outermost go on.
     fn bilinear(&self, x: f64, y: f64) -> f64 {
         let last = i64::from(self.key.lens.size[0]) - 1;
@@ -116,5 +101,34 @@ impl ShadowMap {
         };
         let row = |y: i64| at(x, y) + fx * (at(x + 1, y) - at(x, y));
         row(y) + fy * (row(y + 1) - row(y))
+    }
+}
+
+/// A shadow map for points that are given relative to a place: far from the origin their own differences keep their digits.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ShadowsAround<'a> {
+    map: &'a ShadowMap,
+    lens: Lens,
+}
+
+impl ShadowsAround<'_> {
+    /// How much of the light arrives at a point, from 0 to 1.
+    pub(crate) fn lit(&self, point: DVec3, normal: DVec3, filter: u32) -> f32 {
+        let lens = &self.lens;
+        let size = f64::from(lens.size[0]);
+        let texel = 2.0 * lens.see(point).z * self.map.key.tan_half / size;
+        let seen = lens.see(point + normal * (1.5 * texel));
+        let place = lens.place(seen).filter(|place| place.iter().all(|x| x.abs() < 2.0 * size));
+        let Some(place) = place else { return 1.0 };
+        self.map.filtered(place, filter, (seen.z - 0.5 * texel) as f32)
+    }
+
+    /// How far along its axis light has gone through the model before it comes to a point; `None` outside of the map.
+    pub(crate) fn thickness(&self, point: DVec3) -> Option<f64> {
+        let lens = &self.lens;
+        let seen = lens.see(point);
+        let size = f64::from(lens.size[0]);
+        let [x, y] = lens.place(seen).filter(|place| place.iter().all(|x| (0.0..size).contains(x)))?;
+        Some((seen.z - self.map.bilinear(x - 0.5, y - 0.5)).abs())
     }
 }

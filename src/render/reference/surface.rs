@@ -27,7 +27,7 @@ pub(crate) struct Facet {
 
 /// A point of the surface.
 pub(crate) struct Point {
-    /// P.
+    /// P, relative to the eye: far from the origin positions themselves have no digits left between two pixels.
     pub(crate) position: DVec3,
     /// N, on the eye's side.
     pub(crate) normal: DVec3,
@@ -46,7 +46,7 @@ impl Facet {
         let face = mesh.face(id);
         Self {
             sides: [b.cross(c), c.cross(a), a.cross(b)],
-            corners,
+            corners: corners.map(|p| lens.from_eye(p)),
             vertices: face.vertices.map(|v| mesh.vertex(v)),
             surface: face.surface,
             sign: if triangle.behind() { -1.0 } else { 1.0 },

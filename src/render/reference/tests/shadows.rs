@@ -69,7 +69,7 @@ fn filtering_lets_the_part_through_that_lies_off_the_edge() {
             // The place is taken 1.5 texels nearer to the light, where the same point lies further out.
             let point = DVec3::new(off * texel * (6.0 - 1.5 * texel) / 6.0, 0.1, 0.0);
             let expected = (0.5 + off / f64::from(filter)).clamp(0.0, 1.0);
-            let found = f64::from(map.lit(point, DVec3::Z, filter));
+            let found = f64::from(map.around(DVec3::ZERO).lit(point, DVec3::Z, filter));
             assert!((found - expected).abs() < 1e-4, "filter {filter}, {off} texels: {found} {expected}");
         }
     }
@@ -81,8 +81,17 @@ fn outside_of_the_map_all_is_lit_and_nothing_comes_through() {
     let light = kit::light(DVec3::Z * 6.0, DVec3::ZERO);
     let map = ShadowMap::new(&mesh, Key::new(&light, 0, 64));
     let beside = DVec3::new(4.0, 0.0, 0.0);
-    assert_eq!([map.lit(DVec3::ZERO, DVec3::Z, 3), map.lit(beside, DVec3::Z, 3)], [0.0, 1.0]);
-    assert_eq!(map.lit(DVec3::Z * 9.0, DVec3::Z, 3), 1.0, "behind the light");
-    assert!((map.thickness(DVec3::ZERO).expect("within") - 1.0).abs() < 1e-5);
-    assert_eq!([map.thickness(beside), map.thickness(DVec3::Z * 9.0)], [None; 2]);
+    assert_eq!(
+        [
+            map.around(DVec3::ZERO).lit(DVec3::ZERO, DVec3::Z, 3),
+            map.around(DVec3::ZERO).lit(beside, DVec3::Z, 3)
+        ],
+        [0.0, 1.0]
+    );
+    assert_eq!(map.around(DVec3::ZERO).lit(DVec3::Z * 9.0, DVec3::Z, 3), 1.0, "behind the light");
+    assert!((map.around(DVec3::ZERO).thickness(DVec3::ZERO).expect("within") - 1.0).abs() < 1e-5);
+    assert_eq!(
+        [map.around(DVec3::ZERO).thickness(beside), map.around(DVec3::ZERO).thickness(DVec3::Z * 9.0)],
+        [None; 2]
+    );
 }
