@@ -73,7 +73,7 @@ fn scatter(@builtin(position) position: vec4f) -> @location(0) vec4f {
         let color = a + (place - f32(first)) * (b - a);
         sum += tap.rgb * (color + apart * (own.rgb - color));
     }
-    return vec4f(sum, own.a);
+    return vec4f(held(sum), own.a);
 }
 
 // What the discoloration leaves of the centre's weight: 1 + α(2 c − 1).

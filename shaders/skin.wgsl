@@ -237,9 +237,6 @@ struct Pixel {
     @location(3) discolor: vec4f,
 }
 
-// The most that half a float holds.
-const BRIGHTEST = vec3f(65504.0);
-
 // No face, and farther than any.
 const NOTHING = 0xffffffffu;
 const FAR = 1e30;
@@ -270,9 +267,9 @@ fn shade(@builtin(position) place: vec4f) -> Pixel {
     }
     let depth = dot(scene.forward.xyz, point.position) + scene.forward.w;
     return Pixel(
-        vec4f(min(diffuse, BRIGHTEST), material.scattering),
+        vec4f(held(diffuse), material.scattering),
         depth,
-        vec4f(min(specular, BRIGHTEST), 0.0),
+        vec4f(held(specular), 0.0),
         material.discolor,
     );
 }

@@ -13,8 +13,9 @@
 //! | [`device`], [`readback`] | the device, where everything that can fail does so as a value |
 //!
 //! Maps are loaded texel by texel, decoded and mixed in the shaders, in f32: hardware filters differ from device to device. Light is
-//! kept in half floats between the passes, and f32 is as precise as a device makes it: so frames differ from the CPU
-//! reference's by a byte here and there, and more along the borders of shadows.
+//! kept in half floats between the passes, rounded in the shaders for the same reason. What is left is how precise a device's f32 is: frames
+//! differ from the CPU reference's by a byte here and there, and may differ by more where a comparison is a close one, along
+//! silhouettes and shadows.
 
 mod bindings;
 mod compose;

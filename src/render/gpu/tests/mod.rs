@@ -24,7 +24,7 @@ fn a_scene_is_opened_painted_and_shown_through_the_traits() {
         renderer.follow(&[]).expect("no painting");
         renderer.frame(&scene.job()).expect("a frame")
     });
-    assert!(gap(&frames[0].image, &frames[1].image).mean < 0.1);
+    assert!(gap(&frames[0].image, &frames[1].image).mean < 0.02);
     for id in [MapId::Color, MapId::Normal, MapId::Occlusion, MapId::Specular, MapId::Discolor] {
         let [ours, theirs] = renderers.each_mut().map(|renderer| renderer.map(id).expect("a map"));
         assert_eq!(ours, theirs, "{id:?}");
