@@ -20,8 +20,7 @@
 //! Data flows one way: recording → replay → engine → report → front end. `geometry` and `mesh` lie under the engines. `tests/layers.rs`
 //! keeps it: it parses every path, and a room that it does not know fails.
 //!
-//! Rooms to come, and where they go: `canvas` (what can be asked of pixels, as data) under the engines, `render` beside them, `tui` beside `cli`;
-//! the stages GP and PP between FC and MC in `engine::wound`, with rows of their own in its table, so that no digest there is changes.
+//! A room to come: `tui`, beside `cli`.
 //!
 //! # Rules of the house
 //!
@@ -41,6 +40,15 @@
 //! - **An opening is a displacement field along one direction,** so what folds can be straightened or narrowed as numbers. Where there is
 //!   no room at all the line stays closed, and the longest part between such places is opened (counters `narrowed`, `closed`).
 //! - **A subdivision is a stage too** (SD), so it has its time, digest and invariants like the rest.
+//! - **Maps are a function of a list.** A state holds the paintings that were applied, not their texels; a renderer makes its maps those of exactly that
+//!   list, from saved tiles or by painting again. Undo, rejection, seek and keyframes need nothing more, and GP's and PP's digests are those of jobs.
+//! - **The skin around a cut is unrolled once,** face by face outward from the line, and painted in those coordinates. The faces under the line go in the
+//!   parts that MC will make of them, so that the line is where the patch's middle is to the last digit.
+//! - **Painting goes in two steps,** places and then texels, so that a texel is painted once whatever overlaps, and CPU and GPU agree to the byte but
+//!   for single roundings. Every filter is written out; none is the hardware's, but for the scattering's colour.
+//! - **Positions on a GPU are relative to the model's middle,** not to the eye: then a moved camera uploads nothing.
+//! - **The inside of a cut is a formula,** three tissue colours over v, rather than a texture.
+//! - **Frames of checkpoints are at most 640 x 360,** in the view's own shape.
 //! - **Seeking walks patches;** keyframes and re-running take over where the byte budget let patches go.
 #![warn(missing_docs)]
 

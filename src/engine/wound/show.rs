@@ -1,10 +1,13 @@
 //! What there is to show of a cut.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+
+use rustc_hash::FxHashMap;
 
 use super::state::{Cut, State, Work};
 use crate::canvas::job::PaintFace;
 use crate::engine::Shown;
+use crate::mesh::FaceId;
 use crate::report::{Counter, Counters, Overlay, Row, Table};
 
 pub(super) fn show(state: &State, work: &Work) -> Shown {
@@ -90,10 +93,30 @@ fn overlays(cut: &Cut) -> Vec<Overlay> {
     let picks = cut.picked.iter().flatten().map(|p| p.point.position.to_array()).collect();
     let gutter = cut.carved.gutter.iter().map(|f| f.0).collect();
     let painted = cut.painted.as_ref().map_or_else(Vec::new, |p| distinct(&p.painting.paint.faces));
-    vec![
+    let mut overlays = vec![
         Overlay::Line { name: "line".into(), points: line },
         Overlay::Points { name: "picks".into(), points: picks },
         Overlay::Faces { name: "gutter".into(), faces: gutter },
         Overlay::Faces { name: "painted".into(), faces: painted },
-    ]
+    ];
+    overlays.extend(configurations(cut));
+    overlays
+}
+
+/// The faces that links cross, by configuration: where they were divided, what they were divided into.
+fn configurations(cut: &Cut) -> impl Iterator<Item = Overlay> {
+    let chain = &cut.formed.chain;
+    let split = cut.formed.refinement.faces.iter().zip(&cut.refined.children);
+    let children: FxHashMap<FaceId, &Vec<FaceId>> = split.map(|(split, made)| (split.face, made)).collect();
+    let mut by_name: BTreeMap<String, BTreeSet<u32>> = BTreeMap::new();
+    for (i, link) in chain.links.iter().enumerate() {
+        let faces = by_name.entry(format!("configuration {}", chain.configuration(i))).or_default();
+        match children.get(&link.face) {
+            Some(children) => faces.extend(children.iter().map(|f| f.0)),
+            None => drop(faces.insert(link.face.0)),
+        }
+    }
+    by_name
+        .into_iter()
+        .map(|(name, faces)| Overlay::Faces { name, faces: faces.into_iter().collect() })
 }
