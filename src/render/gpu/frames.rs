@@ -63,7 +63,8 @@ impl Passes {
 pub struct Frames {
     device: Arc<Device>,
     passes: Arc<Passes>,
-    clock: Option<Clock>,
+    /// None where passes are timed from outside.
+    pub(crate) clock: Option<Clock>,
     surface: Surface,
     shadows: ShadowMaps,
     skin: SkinState,

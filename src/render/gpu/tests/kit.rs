@@ -15,22 +15,26 @@ use crate::render::gpu::device::Device;
 use crate::render::gpu::frames::{Frames, Passes};
 use crate::render::reference;
 
-/// The device, if there is one. Said to be skipped where there is none, and a failure where one is required.
+/// The device that all tests share, if there is one.
 pub(crate) fn device() -> Option<Arc<Device>> {
     static DEVICE: OnceLock<Option<Arc<Device>>> = OnceLock::new();
-    let open = || match Device::open() {
-        Ok(device) => Some(Arc::new(device)),
+    let device = DEVICE.get_or_init(|| own_device().map(Arc::new)).clone();
+    if device.is_none() {
+        eprintln!("skipped: no adapter");
+    }
+    device
+}
+
+/// A device of one's own, to break. Where there is none a test is skipped, and fails where one is required.
+pub(super) fn own_device() -> Option<Device> {
+    match Device::open() {
+        Ok(device) => Some(device),
         Err(RenderError::NoAdapter(why)) => {
             assert_ne!(std::env::var("LANCET_GPU").as_deref(), Ok("require"), "no adapter: {why}");
             None
         }
         Err(other) => panic!("{other}"),
-    };
-    let device = DEVICE.get_or_init(open).clone();
-    if device.is_none() {
-        eprintln!("skipped: no adapter");
     }
-    device
 }
 
 /// A texel's place, and the texel there.

@@ -36,6 +36,23 @@ fn everything_gives_the_same_bytes() {
     }
 }
 
+/// A device without a clock is waited for after each pass; the picture is the same.
+#[test]
+fn passes_are_timed_with_the_device_s_clock_or_without() {
+    let Some(device) = device() else { return };
+    let scene = Scene::bust([96, 64]);
+    let mut ours = [OnDevice::new(&device, &scene), OnDevice::new(&device, &scene)];
+    ours[1].frames.clock = None;
+    let frames = ours.each_mut().map(|ours| ours.frame(&scene));
+    assert_eq!(frames[0].image, frames[1].image);
+    for frame in &frames {
+        for id in ["visible", "shadow 0", "skin", "scatter", "compose"] {
+            let us = pass(frame, id).us;
+            assert!(us > 0.0 && us < 60e6, "{id}: {us}");
+        }
+    }
+}
+
 #[test]
 fn passes_say_why_they_were_not_done() {
     let Some(device) = device() else { return };
