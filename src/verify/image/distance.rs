@@ -4,13 +4,16 @@
 //! - **outliers**: how many pixels are off by more than 8 in any channel: what is small and wrong at once. Noise has none;
 //! - **tone**: the mean signed difference over the skin, in the worst channel: noise cancels out, a wrong constant does not. Of a few pixels
 //!   it would be noise again, so there the sum is divided by more than there are;
+//! - **displacement**: by how many pixels the golden has to be moved to come nearest, across or down, by one step of least squares (Lucas and Kanade
+//!   1981): −Σ (b − a) ∂a / Σ (∂a)², a the golden's grey values and ∂a their central differences. Noise has no direction and cancels out, so
+//!   this tells a picture that is off by a pixel even where it is smooth, and a shifted one differs by no more than noise does;
 //! - **structure**: 1 − the hybrid score of image-compare (structural similarity of the luma in 8 × 8 windows, and the chroma's RMS).
-//!   It tells a picture that is moved or blurred as a whole.
+//!   It tells a picture that is blurred or warped as a whole.
 //!
 //! The hybrid score rather than the MSSIM: both hardly see a hole or a crack (1e-4), but harmless noise of ±2 costs the hybrid a
 //! quarter of what it costs the MSSIM, and a tone shift costs it ten times as much. So its gate can be narrower.
 //!
-//! The first three take one sweep; structure takes ten times as long, and is left for last.
+//! All but structure take one sweep; structure takes ten times as long, and is left for last.
 
 use std::fmt;
 
@@ -26,6 +29,9 @@ use crate::canvas::image::Image;
 const TILE: u32 = 16;
 /// Pixels of skin that have a tone: a hole's worth.
 const TONED: u32 = 144;
+/// Steepness, in squares of doubled differences of three channels, below which a picture is too flat to say where it is: some three hundred
+/// pixels with a slope of one.
+const FLAT: f64 = 1e4;
 /// A pixel that is off by more than this in a channel is an outlier.
 const OUTLYING: u8 = 8;
 
@@ -39,13 +45,16 @@ pub enum Metric {
     Outliers,
     /// The mean signed difference over the skin.
     Tone,
+    /// By how many pixels it is moved.
+    Displacement,
     /// 1 − the hybrid score.
     Structure,
 }
 
 impl Metric {
     /// All, the cheap ones first.
-    pub(crate) const ALL: [Self; 4] = [Self::Tile, Self::Outliers, Self::Tone, Self::Structure];
+    pub(crate) const ALL: [Self; 5] =
+        [Self::Tile, Self::Outliers, Self::Tone, Self::Displacement, Self::Structure];
 }
 
 impl fmt::Display for Metric {
@@ -54,6 +63,7 @@ impl fmt::Display for Metric {
             Self::Tile => "tile",
             Self::Outliers => "outliers",
             Self::Tone => "tone",
+            Self::Displacement => "displacement",
             Self::Structure => "structure",
         })
     }
@@ -69,6 +79,8 @@ pub struct Distance {
     pub outliers: u32,
     /// The mean signed difference over the skin in the worst channel, without its sign.
     pub tone: f64,
+    /// By how many pixels it is moved, across or down.
+    pub displacement: f64,
     /// 1 − the hybrid score, 0 to 1.
     pub structure: f64,
 }
@@ -80,6 +92,7 @@ impl Distance {
             Metric::Tile => self.tile,
             Metric::Outliers => f64::from(self.outliers),
             Metric::Tone => self.tone,
+            Metric::Displacement => self.displacement,
             Metric::Structure => self.structure,
         }
     }
@@ -91,6 +104,7 @@ impl Distance {
             tile: self.tile.max(other.tile),
             outliers: self.outliers.max(other.outliers),
             tone: self.tone.max(other.tone),
+            displacement: self.displacement.max(other.displacement),
             structure: self.structure.max(other.structure),
         }
     }
@@ -104,8 +118,9 @@ impl Distance {
 
 impl fmt::Display for Distance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { tile, outliers, tone, structure } = self;
-        write!(f, "tile {tile:.3}, outliers {outliers}, tone {tone:.3}, structure {structure:.5}")
+        let Self { tile, outliers, tone, displacement, structure } = self;
+        write!(f, "tile {tile:.3}, outliers {outliers}, tone {tone:.3}, ")?;
+        write!(f, "displacement {displacement:.4}, structure {structure:.5}")
     }
 }
 
@@ -139,7 +154,9 @@ fn sweep(golden: &Image, found: &Image, skin: &Skin) -> Measured {
     let width = golden.size[0].max(1) as usize;
     for (at, (a, b)) in golden.texels.iter().zip(&found.texels).enumerate() {
         if a != b {
-            sums.add([at % width, at / width], *a, *b, skin.holds(*a));
+            let place = [at % width, at / width];
+            sums.add(place, *a, *b, skin.holds(*a));
+            sums.lean(slope(golden, place), *a, *b);
         }
     }
     sums.measured(golden, skin)
@@ -152,12 +169,14 @@ struct Sums {
     outliers: u32,
     /// By channel: the sum of signed differences over the skin.
     tone: [i64; 3],
+    /// Across and down: the sum of differences times the golden's slope.
+    along: [i64; 2],
 }
 
 impl Sums {
     fn new(size: [u32; 2]) -> Self {
         let [columns, rows] = size.map(|side| side.div_ceil(TILE) as usize);
-        Self { columns, tiles: vec![[0; 4]; columns * rows], outliers: 0, tone: [0; 3] }
+        Self { columns, tiles: vec![[0; 4]; columns * rows], outliers: 0, tone: [0; 3], along: [0; 2] }
     }
 
     fn add(&mut self, [x, y]: [usize; 2], a: [u8; 4], b: [u8; 4], skin: bool) {
@@ -174,11 +193,19 @@ impl Sums {
         }
     }
 
+    fn lean(&mut self, slope: [i64; 2], a: [u8; 4], b: [u8; 4]) {
+        let difference = grey(b) - grey(a);
+        (0..2).for_each(|axis| self.along[axis] += difference * slope[axis]);
+    }
+
     fn measured(&self, golden: &Image, skin: &Skin) -> Measured {
         let (tile, worst_tile) = self.worst_tile(golden.size);
         let shift = self.tone.iter().map(|sum| sum.unsigned_abs()).max().unwrap_or(0);
         let tone = shift as f64 / f64::from(skin.pixels.max(TONED));
-        Measured { distance: Distance { tile, outliers: self.outliers, tone, structure: 0.0 }, worst_tile }
+        let moved = |axis: usize| 2.0 * self.along[axis].abs() as f64 / (skin.steepness[axis] as f64 + FLAT);
+        let displacement = moved(0).max(moved(1));
+        let distance = Distance { tile, outliers: self.outliers, tone, displacement, structure: 0.0 };
+        Measured { distance, worst_tile }
     }
 
     /// The mean of the worst tile, and where it begins. Tiles at the border may be smaller.
@@ -194,6 +221,21 @@ impl Sums {
         }
         worst
     }
+}
+
+fn grey([r, g, b, _]: [u8; 4]) -> i64 {
+    i64::from(r) + i64::from(g) + i64::from(b)
+}
+
+/// Twice the slope of the grey values at a pixel, across and down; none at the border.
+pub(super) fn slope(image: &Image, [x, y]: [usize; 2]) -> [i64; 2] {
+    let [width, height] = image.size.map(|side| side as usize);
+    let at = |x: usize, y: usize| grey(image.texels[y * width + x]);
+    let inside = |along: usize, side: usize| along > 0 && along + 1 < side;
+    [
+        if inside(x, width) { at(x + 1, y) - at(x - 1, y) } else { 0 },
+        if inside(y, height) { at(x, y + 1) - at(x, y - 1) } else { 0 },
+    ]
 }
 
 fn structure(golden: &Image, found: &Image) -> f64 {

@@ -3,7 +3,7 @@
 //! ```json
 //! { "version": 1, "adapters": [
 //!     { "adapter": "llvmpipe*", "reason": "software Vulkan, as in CI",
-//!       "measured": { "tile": 0.4, "outliers": 2, "tone": 0.02, "structure": 0.001 } } ] }
+//!       "measured": { "tile": 0.4, "outliers": 2, "tone": 0.02, "displacement": 0.001, "structure": 0.001 } } ] }
 //! ```
 //!
 //! An entry is what was measured: the worst distance of an adapter from the reference over the goldens, and why it is fine. The
@@ -24,10 +24,12 @@ use crate::canvas::{Adapter, Kind};
 /// Version of the file.
 const VERSION: u32 = 1;
 /// No gate is narrower.
-const FLOOR: Distance = Distance { tile: 0.25, outliers: 4, tone: 0.05, structure: 0.002 };
-/// What each measure has to catch: tile and outliers a crack in skin of 160 or more, tone the tone shift, structure the one-pixel shift, which
-/// costs a frame that is half full 0.14 and more.
-const SMALLEST_DEFECT: Distance = Distance { tile: 7.5, outliers: 40, tone: 3.0, structure: 0.12 };
+const FLOOR: Distance =
+    Distance { tile: 0.25, outliers: 4, tone: 0.05, displacement: 0.02, structure: 0.002 };
+/// What each measure has to catch: tile and outliers a crack in skin of 160 or more, tone the tone shift; displacement and structure
+/// the one-pixel shift, which costs a frame that is half full a structure of 0.14 and more.
+const SMALLEST_DEFECT: Distance =
+    Distance { tile: 7.5, outliers: 40, tone: 3.0, displacement: 0.8, structure: 0.12 };
 
 /// An adapter whose distance from the reference is known.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -120,11 +122,12 @@ pub struct Gate {
 impl Known {
     /// Twice what was measured, and no less than the floor. An error says why that is no gate.
     pub(crate) fn gate(&self) -> Result<Distance, GatesError> {
-        let Distance { tile, outliers, tone, structure } = self.measured;
+        let Distance { tile, outliers, tone, displacement, structure } = self.measured;
         let twice = Distance {
             tile: tile * 2.0,
             outliers: outliers.saturating_mul(2),
             tone: tone * 2.0,
+            displacement: displacement * 2.0,
             structure: structure * 2.0,
         };
         for metric in Metric::ALL {

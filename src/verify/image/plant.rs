@@ -5,7 +5,7 @@
 //! | hole | a square of 12 × 12 pixels turns black; in a small picture less, a fiftieth of it | tile, outliers |
 //! | crack | a line of 40 × 1 pixels, across or down, goes down to a quarter | tile, outliers |
 //! | tone | the skin is 3 less red | tone |
-//! | shift | the whole picture moves by one pixel to the right | structure, outliers |
+//! | shift | the whole picture moves by one pixel to the right | displacement, structure |
 //!
 //! Hole and crack are planted in lit skin, where one could see them, as near to its middle as they fit. Where there is no room for
 //! them, or the picture is smaller than 64 × 64, nothing is proven, and the report says why.

@@ -1,8 +1,9 @@
-//! Which pixels of a golden show the model.
+//! What is known of a golden before anything is compared with it: which of its pixels show the model, and how steep it is.
 //!
 //! A pixel is skin where it is not of the background's colour, which the session tells with the frame. A pixel of the model that happens to
 //! have just that colour is missed; what is measured over the skin is a mean, and does not depend on single pixels.
 
+use super::distance::slope;
 use crate::canvas::image::Image;
 
 /// A channel that is this bright is seen to go dark.
@@ -14,6 +15,8 @@ pub(crate) struct Skin {
     background: [u8; 4],
     /// How many pixels it has.
     pub(super) pixels: u32,
+    /// Across and down: the sum of the squares of the golden's doubled slopes.
+    pub(super) steepness: [u64; 2],
     /// By corner of pixels, row by row: how many lit pixels of it lie above and left.
     sums: Vec<u32>,
     size: [u32; 2],
@@ -25,7 +28,8 @@ impl Skin {
     /// The skin of a golden, before a background.
     pub(crate) fn of(golden: &Image, background: [u8; 4]) -> Self {
         let size = golden.size;
-        let mut skin = Self { background, pixels: 0, sums: Vec::new(), size, middle: [0; 2] };
+        let (sums, steepness) = (Vec::new(), steepness(golden));
+        let mut skin = Self { background, pixels: 0, steepness, sums, size, middle: [0; 2] };
         skin.pixels = golden.texels.iter().filter(|t| skin.holds(**t)).count() as u32;
         skin.sum_up(golden);
         skin
@@ -83,4 +87,10 @@ impl Skin {
             dx * dx + dy * dy
         })
     }
+}
+
+fn steepness(golden: &Image) -> [u64; 2] {
+    let [width, height] = golden.size.map(|side| side as usize);
+    let slopes = (0..height).flat_map(|y| (0..width).map(move |x| slope(golden, [x, y])));
+    slopes.fold([0; 2], |[across, down], [dx, dy]| [across + (dx * dx) as u64, down + (dy * dy) as u64])
 }

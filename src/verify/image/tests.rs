@@ -116,9 +116,12 @@ fn every_measure_sees_what_it_is_there_for() {
     assert_eq!((hole.outliers, crack.outliers, tone.outliers), (144, 40, 0));
     assert!(hole.tile > 30.0 && crack.tile > 7.5, "{hole}; {crack}");
     assert_eq!((tone.tone, tone.tile), (3.0, 3.0), "the same everywhere");
-    assert!(shift.structure > 0.1 && shift.outliers > 100, "{shift}");
+    assert!(shift.structure > 0.1 && (0.9..1.1).contains(&shift.displacement), "{shift}");
     let harmless = distance(&golden, &noise(&golden, 2, 1));
-    assert!(harmless.outliers == 0 && harmless.tone < 0.1 && harmless.tile <= 2.0, "{harmless}");
+    assert!(
+        harmless.outliers == 0 && harmless.tone < 0.1 && harmless.tile <= 2.0 && harmless.displacement < 0.02,
+        "{harmless}"
+    );
     let worst = measure(&golden, &with(&golden, Defect::Hole), &skin(&golden)).worst_tile;
     assert!(worst[0].abs_diff(160) <= 32 && worst[1].abs_diff(90) <= 32, "{worst:?}");
 }
@@ -126,7 +129,7 @@ fn every_measure_sees_what_it_is_there_for() {
 #[test]
 fn each_gate_catches_its_defect_alone() {
     let golden = face([320, 180]);
-    let open = Distance { tile: 1e9, outliers: u32::MAX, tone: 1e9, structure: 1e9 };
+    let open = Distance { tile: 1e9, outliers: u32::MAX, tone: 1e9, displacement: 1e9, structure: 1e9 };
     let floor = GatesFile::default().general().most;
     let alone = |gate: Distance, defect| {
         let found = with(&golden, defect);
@@ -140,9 +143,25 @@ fn each_gate_catches_its_defect_alone() {
         alone(Distance { structure: floor.structure, ..open }, Defect::Shift),
         caught(Metric::Structure)
     );
+    let displacement = Distance { displacement: floor.displacement, ..open };
+    assert_eq!(alone(displacement, Defect::Shift), caught(Metric::Displacement));
     DEFECTS.into_iter().for_each(|defect| assert_eq!(alone(open, defect), None, "{defect}"));
     let proof = prove(&golden, &skin(&golden), &open);
     assert_eq!(proof.missed().collect::<Vec<_>>(), DEFECTS, "an open gate proves nothing");
+}
+
+#[test]
+fn a_smooth_picture_tells_where_it_is() {
+    let mut golden = Image::filled([320, 180], [0; 4]);
+    for (at, texel) in golden.texels.iter_mut().enumerate() {
+        let grey = (90 + (at % 320) / 8 + (at / 320) / 6) as u8;
+        *texel = [grey, grey, grey, 255];
+    }
+    let noisy = noise(&golden, 1, 2);
+    let shift = distance(&golden, &with(&noisy, Defect::Shift));
+    assert!((0.8..1.2).contains(&shift.displacement) && shift.outliers == 0, "{shift}");
+    assert!(distance(&golden, &noisy).displacement < 0.1, "{}", distance(&golden, &noisy));
+    assert_eq!(prove(&golden, &skin(&golden), &gate_of(&golden, &noise(&golden, 1, 40))).missed().count(), 0);
 }
 
 #[test]
@@ -173,13 +192,15 @@ fn the_smallest_pictures_are_measured_too() {
 
 #[test]
 fn gates_are_twice_what_was_measured_above_a_floor_and_below_every_defect() {
-    let measured = Distance { tile: 1.5, outliers: 0, tone: 0.5, structure: 0.01 };
+    let measured =
+        Distance { tile: 1.5, tone: 0.5, displacement: 0.1, structure: 0.01, ..Distance::default() };
     let gate = entry(measured).gate().expect("a gate");
     assert_eq!((gate.tile, gate.outliers, gate.tone, gate.structure), (3.0, 4, 1.0, 0.02));
     for (wide, metric) in [
         (Distance { tile: 4.0, ..measured }, Metric::Tile),
         (Distance { outliers: 20, ..measured }, Metric::Outliers),
         (Distance { tone: 1.5, ..measured }, Metric::Tone),
+        (Distance { displacement: 0.4, ..measured }, Metric::Displacement),
         (Distance { structure: 0.06, ..measured }, Metric::Structure),
     ] {
         let error = entry(wide).gate().expect_err("too wide");
@@ -195,8 +216,8 @@ fn gates_are_twice_what_was_measured_above_a_floor_and_below_every_defect() {
 fn an_adapter_has_its_own_gate_or_the_largest_of_all() {
     let file = |text: &str| GatesFile::parse(text.as_bytes());
     let text = r#"{ "version": 1, "adapters": [
-        { "adapter": "llvmpipe*", "reason": "CI", "measured": { "tile": 1.0, "outliers": 3, "tone": 0.1, "structure": 0.004 } },
-        { "adapter": "NVIDIA * Ti", "reason": "a desk", "measured": { "tile": 0.5, "outliers": 9, "tone": 0.1, "structure": 0.001 } } ] }"#;
+        { "adapter": "llvmpipe*", "reason": "CI", "measured": { "tile": 1.0, "outliers": 3, "tone": 0.1, "displacement": 0.01, "structure": 0.004 } },
+        { "adapter": "NVIDIA * Ti", "reason": "a desk", "measured": { "tile": 0.5, "outliers": 9, "tone": 0.1, "displacement": 0.01, "structure": 0.001 } } ] }"#;
     let gates = file(text).expect("gates");
     let own = gates.gate(&gpu("llvmpipe (LLVM 15.0.6, 256 bits)"));
     assert_eq!((own.of.as_str(), own.most.outliers, own.most.tile), ("llvmpipe*", 6, 2.0));
@@ -218,7 +239,7 @@ fn damaged_gates_are_named() {
     let entry = |adapter: &str, reason: &str, tone: &str| {
         error(&format!(
             r#"{{"version": 1, "adapters": [{{"adapter": "{adapter}", "reason": "{reason}",
-                "measured": {{"tile": 0, "outliers": 0, "tone": {tone}, "structure": 0}}}}]}}"#
+                "measured": {{"tile": 0, "outliers": 0, "tone": {tone}, "displacement": 0, "structure": 0}}}}]}}"#
         ))
     };
     assert_eq!(entry("", "x", "0"), "adapters[0] has no adapter");
