@@ -2,7 +2,7 @@
 //!
 //! | module | what it does |
 //! | --- | --- |
-//! | [`reference`] | on the CPU: the oracle, written from the papers; the same bytes on every machine |
+//! | [`mod@reference`] | on the CPU: the oracle, written from the papers; the same bytes on every machine |
 //! | `gpu` | on a GPU: wgpu, over Vulkan |
 //! | [`kernel`], [`beckmann`], [`srgb`] | tables that every renderer takes from here, so that they differ in nothing but arithmetic |
 //! | [`spans`] | which texels a triangle covers |

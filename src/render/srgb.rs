@@ -1,7 +1,7 @@
 //! sRGB: from bytes to linear light and back (IEC 61966-2-1).
 //!
 //! Decoding is a table of 256, from libm in f64. Encoding rounds to the nearest byte, exactly: byte b begins where the decoding of b − ½ lies, so
-//! it is a search among 255 thresholds, and one look in a table of [`BUCKETS`] leaves at most one of them to compare with.
+//! it is a search among 255 thresholds, and one look in a table of `BUCKETS` leaves at most one of them to compare with.
 
 use std::sync::LazyLock;
 

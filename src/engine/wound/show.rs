@@ -116,7 +116,5 @@ fn configurations(cut: &Cut) -> impl Iterator<Item = Overlay> {
             None => drop(faces.insert(link.face.0)),
         }
     }
-    by_name
-        .into_iter()
-        .map(|(name, faces)| Overlay::Faces { name, faces: faces.into_iter().collect() })
+    by_name.into_iter().map(|(name, faces)| Overlay::Faces { name, faces: faces.into_iter().collect() })
 }

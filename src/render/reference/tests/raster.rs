@@ -138,7 +138,11 @@ fn attributes_are_perspective_correct() {
         let point = Facet::new(&stage.mesh, drawing.triangle(triangle), &lens).meet(lens.ray(x, y));
         // Pixels that only the rounded corners cover have what is at the border.
         let slack = 1e-9 + 0.01 * t;
-        assert!((stage.view.eye + point.position - expected).length() < slack, "{point:?} {expected}", point = point.position);
+        assert!(
+            (stage.view.eye + point.position - expected).length() < slack,
+            "{point:?} {expected}",
+            point = point.position
+        );
         let (from, uu, vv, uv) = (expected - corner, u.dot(u), v.dot(v), u.dot(v));
         let det = uu * vv - uv * uv;
         let found = Vec2::new(point.uv[0] as f32, point.uv[1] as f32).as_dvec2();
