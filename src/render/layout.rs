@@ -5,7 +5,7 @@
 //! those of the face's affine map at its rounded corners. It begins a hair within the face, so that rounding leaves no slit between them.
 //!
 //! Maps repeat: a triangle that reaches over the map's border is there once for each side of it, moved by whole maps. What is left out is
-//! said in [`spans`](super::spans()).
+//! said in `spans`.
 //!
 //! Nothing changes where the line is farther than c_h, or 0.03 c_l along it: there the patch and the discoloration have ended. So a
 //! tile that a triangle meets only there is not in the list.

@@ -18,7 +18,7 @@
 //! each other. A face whose third corner is known, but not where the face would lay it, keeps its own; such nodes are
 //! [`Walk::torn`]. Where the skin curves strongly the front may be led back towards the line, though the way there is long. A face that would lie
 //! nearer to the line than the side over which one comes to it is refused from there ([`Walk::refused`]) if a tear led to it, or if its corner would
-//! lie at less than half of its straight distance in space.
+//! lie at less than half of its straight distance in space; and so is one whose corner would lie beside the line, though it is beyond the patch.
 //!
 //! The thesis (Lam 2016, §5.3.2.1) collects faces by the texture distance of their corners from the centre of a link, recursively and twice; here both
 //! radii come out of one walk. It never goes over a gutter or a boundary, its work is that of the faces found, and it is done when the front is
@@ -259,7 +259,7 @@ impl<'a> Front<'a> {
         let sides = sides_to_line(&at, self.length);
         let distance = triangle_to_line(&at, sides);
         let comes_back = distance < before.sides[side];
-        if comes_back && (torn || self.is_far(corners[2], at[third])) {
+        if comes_back && (torn || self.is_far(corners[2], at[third])) || self.is_lost(corners[2], at[third]) {
             self.refused.insert(face);
             return None;
         }
@@ -273,8 +273,19 @@ impl<'a> Front<'a> {
 
     /// Whether a corner is laid less than half as far from the line as it is on the straightest way.
     fn is_far(&self, corner: DVec3, at: DVec2) -> bool {
+        to_line(at, self.length) < 0.5 * self.straight(corner)
+    }
+
+    /// Whether a corner is laid beside the line, though it lies beyond the patch, or nearly.
+    fn is_lost(&self, corner: DVec3, at: DVec2) -> bool {
+        let (laid, half) = (to_line(at, self.length), 0.5 * self.radius);
+        laid < 0.2 * half && self.straight(corner).min(half) - laid > 0.8 * half
+    }
+
+    /// Distance from the line in space.
+    fn straight(&self, corner: DVec3) -> f64 {
         let away = self.line.windows(2).map(|w| distance_to_segment(corner, w[0], w[1]));
-        to_line(at, self.length) < 0.5 * away.fold(f64::INFINITY, f64::min)
+        away.fold(f64::INFINITY, f64::min)
     }
 
     /// What a face has of its own goes on into the faces behind it.

@@ -112,7 +112,7 @@ fn scattering_passes(passes: &[Pass]) -> impl Iterator<Item = &Pass> {
 /// Tiles that are worked through with discoloration, of those with skin.
 fn share_discoloured(passes: &[Pass]) -> f64 {
     let tiles = |id: &str| passes.iter().find(|pass| pass.id == id).map_or(0, |pass| pass.tiles);
-    f64::from(tiles("discolour")) / f64::from(tiles("scatter").max(1))
+    f64::from(tiles("discolor")) / f64::from(tiles("scatter").max(1))
 }
 
 /// A figure of a frame of each view, in turns, after one that warms up.

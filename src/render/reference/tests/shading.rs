@@ -128,7 +128,7 @@ fn the_inside_of_a_cut_goes_from_rim_to_bottom_and_scatters_nothing() {
         let [rim, middle, bottom] = stage.look.wound.tissue.map(|c| DVec3::from(c.map(f64::from)));
         let color = if v > 0.5 { middle.lerp(rim, 2.0 * v - 1.0) } else { bottom.lerp(middle, 2.0 * v) };
         for c in 0..3 {
-            close(layers.diffuse[y * 64 + 32][c], linear(color[c]) * v, 1e-5);
+            close(layers.diffuse[y * 64 + 32][c], linear(color[c]) * (0.25 + 0.75 * v), 1e-5);
         }
         assert_eq!(layers.diffuse[y * 64 + 32][3], 0.0);
     }
