@@ -55,9 +55,21 @@ pub(super) fn size(bytes: &[u8]) -> Result<[u32; 2], Fault> {
     Ok(size)
 }
 
+/// A JPEG decoder fills up what is missing, without a word: after the beginning of the last scan there has to be the end of the image.
+fn require_whole(bytes: &[u8]) -> Result<(), Fault> {
+    let last = |marker: [u8; 2]| bytes.windows(2).rposition(|pair| pair == marker);
+    match Format::of(bytes)? {
+        Format::Common(ImageFormat::Jpeg) if last([0xff, 0xd9]) <= last([0xff, 0xda]) => {
+            Err(Fault::whole(FaultKind::Truncated, "the end of the image is missing"))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// The whole image.
 pub(super) fn decode(bytes: &[u8]) -> Result<Image, Fault> {
     size(bytes)?;
+    require_whole(bytes)?;
     let image = match Format::of(bytes)? {
         Format::Common(format) => {
             let decoder = reader(bytes, format).into_decoder().map_err(broken)?;

@@ -150,6 +150,14 @@ fn dds_is_read_with_and_without_blocks() {
     assert_eq!(decode::decode(&array).expect_err("two pictures").kind, FaultKind::Unsupported);
 }
 
+#[test]
+fn a_jpeg_without_its_end_is_refused() {
+    let whole = jpeg([64, 64], [200, 120, 90]);
+    assert!(decode::decode(&whole).is_ok());
+    let half = decode::decode(&whole[..whole.len() - 2]).expect_err("its end is missing");
+    assert!(half.detail.contains("the end of the image"), "{half:?}");
+}
+
 /// Every byte of small files damaged, and every length: an image or an error, never a panic.
 #[test]
 fn damaged_files_are_errors_or_images() {

@@ -13,6 +13,10 @@ use crate::canvas::look::{Ambient, Fbm, Look, Scattering, Skin, Spotlight, Wound
 const MOST_LIGHTS: usize = 64;
 /// More than any sensible intensity, distance or frequency, and far from overflowing f32.
 const LARGE: f64 = 1e6;
+/// As far as a light may aim, model units: as large as a mesh's coordinates may be. Squares of it are finite.
+const FARTHEST: f64 = 1e50;
+/// As far as a light may stand, in radii of the model: from farther away a shadow map's depths, as f32, have no digits left for it.
+const FARTHEST_LIGHT: f64 = 1e3;
 
 /// What a number must be.
 #[derive(Clone, Copy)]
@@ -105,8 +109,8 @@ fn validate_look(look: &Look) -> Result<(), Fault> {
 fn validate_light(light: &Spotlight, name: impl Fn(&str) -> String) -> Result<(), Fault> {
     require(&name("azimuth"), light.azimuth, Finite)?;
     require(&name("zenith"), light.zenith, Between(0.0, PI))?;
-    require(&name("distance"), light.distance, Above(1.0, LARGE))?;
-    require_all(&name("target"), light.target.into_iter().flatten(), Finite)?;
+    require(&name("distance"), light.distance, Above(1.0, FARTHEST_LIGHT))?;
+    require_all(&name("target"), light.target.into_iter().flatten(), Between(-FARTHEST, FARTHEST))?;
     require_all(&name("color"), light.color, POSITIVE)?;
     // A cone of half a turn has no plane to be projected onto.
     require(&name("cone"), light.cone, Between(1e-3, 1.5))?;
