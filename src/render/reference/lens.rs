@@ -55,7 +55,7 @@ impl Lens {
 
     /// A point, relative to the eye.
     #[inline]
-    pub(crate) fn from_eye(&self, point: DVec3) -> DVec3 {
+    pub(crate) fn relative(&self, point: DVec3) -> DVec3 {
         point - self.eye
     }
 

@@ -46,7 +46,7 @@ impl Facet {
         let face = mesh.face(id);
         Self {
             sides: [b.cross(c), c.cross(a), a.cross(b)],
-            corners: corners.map(|p| lens.from_eye(p)),
+            corners: corners.map(|p| lens.relative(p)),
             vertices: face.vertices.map(|v| mesh.vertex(v)),
             surface: face.surface,
             sign: if triangle.behind() { -1.0 } else { 1.0 },
