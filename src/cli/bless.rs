@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use anstyle::{AnsiColor, Style};
 
 use super::args::{Bless, Renderer};
-use super::console::Channel;
+use super::console::{Channel, printable};
 use super::table::{Cell, TextTable};
 use super::verify::{Line, jobs, status};
 use super::{Console, Done, pixels};
@@ -39,7 +39,7 @@ fn show(report: &BlessReport, dry_run: bool, to: &mut Channel<'_>) -> io::Result
         table.write(to)?;
     }
     let rest = report.orphans.iter().chain(&report.errors);
-    rest.into_iter().try_for_each(|problem| writeln!(to, "{} {problem}", to.bad("problem:")))?;
+    rest.into_iter().try_for_each(|problem| writeln!(to, "{} {}", to.bad("problem:"), printable(problem)))?;
     let written = others.iter().filter(|r| r.change != Change::Refused).count();
     let verb = if dry_run { "would be written" } else { "written" };
     writeln!(to, "{written} goldens {verb}, {} as they were, {} refused", same.len(), others.len() - written)
@@ -47,7 +47,7 @@ fn show(report: &BlessReport, dry_run: bool, to: &mut Channel<'_>) -> io::Result
 
 fn show_gates(report: &GaugeReport, dry_run: bool, to: &mut Channel<'_>) -> io::Result<()> {
     let GaugeReport { adapter, file, images, before, measured, worst, errors } = report;
-    errors.iter().try_for_each(|problem| writeln!(to, "{} {problem}", to.bad("problem:")))?;
+    errors.iter().try_for_each(|problem| writeln!(to, "{} {}", to.bad("problem:"), printable(problem)))?;
     if *images > 0 {
         let before = before.map_or("nothing".into(), |before| before.to_string());
         writeln!(to, "{adapter}, {images} pictures: {measured}; before: {before}")?;

@@ -83,7 +83,7 @@ impl<'a> Channel<'a> {
 
     /// A complaint. There is nobody to tell when it cannot be written.
     pub(super) fn error(&mut self, what: &dyn Display) {
-        let label = self.bad("error:");
+        let (label, what) = (self.bad("error:"), printable(what));
         let _ = writeln!(self, "{label} {what}").and_then(|()| self.flush());
     }
 
@@ -151,6 +151,13 @@ impl Drop for Work<'_, '_> {
     }
 }
 
+/// A text that may hold a file's name: control characters, with which a name could write over the terminal, are spelled out.
+pub(super) fn printable(text: impl ToString) -> String {
+    let spelled =
+        |c: char| if c.is_control() && c != '\n' { c.escape_default().collect() } else { c.to_string() };
+    text.to_string().chars().map(spelled).collect()
+}
+
 impl Write for Channel<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         if self.gone {
@@ -202,6 +209,11 @@ mod tests {
             format!("{ERASE_LINE}1 of 3{ERASE_LINE}done\n")
         );
         assert_eq!(terminal(Duration::ZERO, command), "done\n");
+    }
+
+    #[test]
+    fn a_name_cannot_write_over_the_terminal() {
+        assert_eq!(printable("a\u{1b}[31m\u{1}é"), "a\\u{1b}[31m\\u{1}é");
     }
 
     #[test]

@@ -11,7 +11,7 @@ use super::args::Render;
 use super::failure::Failure;
 use super::{Console, Done, Status, check, json, pixels, show};
 use crate::canvas::Adapter;
-use crate::recording::Script;
+use crate::recording::{Script, ScriptError};
 use crate::replay::{Case, Options};
 use crate::report::Pass;
 
@@ -27,11 +27,9 @@ struct Answer<'a> {
 }
 
 pub(super) fn run(typed: &Render, console: &mut Console<'_>) -> Done {
+    let script = Script::parse(script(typed)?.as_bytes()).map_err(|error| as_typed(&error))?;
+    let case = Case::new(script.into_unhashed(), Path::new(""))?;
     let studio = pixels::studio(typed.pixels.renderer, console)?;
-    let case = Case::new(
-        Script::parse(script(typed)?.as_bytes()).map_err(Failure::new)?.into_unhashed(),
-        Path::new(""),
-    )?;
     let options = Options { pictures: true, everything: typed.pixels.no_skip, ..Options::default() };
     let mut replay = case.replay(&case.recording, options, Some(studio.as_ref()))?;
     replay.finish();
@@ -51,7 +49,20 @@ pub(super) fn run(typed: &Render, console: &mut Console<'_>) -> Done {
     Ok(Status::Verified)
 }
 
-/// The scene with its camera and settings, as a script: it is refused in a script's words.
+/// What is wrong, by the option that it was typed after.
+fn as_typed(error: &ScriptError) -> Failure {
+    let option = match error.field.as_str() {
+        "viewport" => "--size",
+        "events[0].camera.azimuth" => "--azimuth",
+        "events[0].camera.zenith" => "--zenith",
+        "events[0].camera.distance" => "--distance",
+        field if field.starts_with("events[1]") => "--set",
+        field => field,
+    };
+    Failure::new(format_args!("{option}: {}", error.message))
+}
+
+/// The scene with its camera and settings, as a script.
 fn script(typed: &Render) -> Result<String, Failure> {
     let angles = [("azimuth", typed.azimuth), ("zenith", typed.zenith), ("distance", typed.distance)];
     let camera = angles.into_iter().filter_map(|(name, value)| Some((name.to_owned(), json!(value?))));

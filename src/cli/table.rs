@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use anstyle::Style;
 
-use super::console::Channel;
+use super::console::{Channel, printable};
 
 /// Which side a column's cells stand on.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -27,14 +27,15 @@ pub(super) struct Cell {
 
 impl<T: ToString> From<T> for Cell {
     fn from(text: T) -> Self {
-        Self { text: text.to_string(), style: Style::new() }
+        Self::styled(text, Style::new())
     }
 }
 
 impl Cell {
     /// A cell in a style.
     pub(super) fn styled(text: impl ToString, style: Style) -> Self {
-        Self { text: text.to_string(), style }
+        // A cell is one line.
+        Self { text: printable(text).replace('\n', "\\n"), style }
     }
 
     fn width(&self) -> usize {

@@ -7,7 +7,7 @@ use std::thread::available_parallelism;
 use anstyle::AnsiColor;
 
 use super::args::{Reports, Target, Verify};
-use super::console::{Channel, Work};
+use super::console::{Channel, Work, printable};
 use super::failure::Failure;
 use super::table::{Cell, TextTable};
 use super::{Console, Done, Status, json, pixels};
@@ -97,7 +97,7 @@ fn show(report: &VerifyReport, to: &mut Channel<'_>) -> io::Result<()> {
     }
     report.recordings.iter().try_for_each(|recording| problems(recording, to))?;
     let rest = report.orphans.iter().chain(&report.errors);
-    rest.into_iter().try_for_each(|problem| writeln!(to, "{} {problem}", to.bad("problem:")))?;
+    rest.into_iter().try_for_each(|problem| writeln!(to, "{} {}", to.bad("problem:"), printable(problem)))?;
     pictures(report, to)?;
     sum(report, to)
 }
@@ -138,8 +138,8 @@ fn row(r: &RecordingReport) -> [Cell; 9] {
 }
 
 fn problems(recording: &RecordingReport, to: &mut Channel<'_>) -> io::Result<()> {
-    let name = to.bad(format_args!("{}:", recording.recording));
-    recording.problems().iter().try_for_each(|problem| writeln!(to, "{name} {problem}"))
+    let name = to.bad(format_args!("{}:", printable(&recording.recording)));
+    recording.problems().iter().try_for_each(|problem| writeln!(to, "{name} {}", printable(problem)))
 }
 
 fn sum(report: &VerifyReport, to: &mut Channel<'_>) -> io::Result<()> {
