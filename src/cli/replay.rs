@@ -7,7 +7,7 @@ use crate::assets;
 use crate::canvas::Studio;
 use crate::canvas::image::Image;
 use crate::render::overlay::{self, Drawing};
-use crate::replay::{self, Case, Options};
+use crate::replay::{self, Case, Options, Shot};
 use crate::report::{self, RunReport, trace};
 
 /// A replay, where it ended.
@@ -48,14 +48,7 @@ fn require_possible(typed: &Replay) -> Result<(), Failure> {
     files
         .chain(&typed.export_mesh)
         .chain(&typed.frame)
-        .try_for_each(|output| place::require_other(&typed.recording, output))?;
-    let within_event = typed.until.as_ref().is_some_and(|until| until.stage.is_some());
-    if within_event && typed.export_mesh.is_some() {
-        return Err(Failure::new(
-            "an event that stops at a stage is taken back, so --export-mesh needs --until EVENT without a stage",
-        ));
-    }
-    Ok(())
+        .try_for_each(|output| place::require_other(&typed.recording, output))
 }
 
 fn once(
@@ -99,7 +92,7 @@ fn up_to(
         return Ok(replay.run_report(name));
     };
     step_to(replay, until.event, console);
-    let last = replay.until(until.event, stage).map_err(Failure::new)?;
+    let last = replay.hold(until.event, stage).map_err(Failure::new)?;
     let before = replay.run_report(name);
     let events = before.events.into_iter().chain([last]).collect();
     Ok(RunReport::new(name, replay.engine(), before.scene, events, None))
@@ -139,7 +132,7 @@ fn picture(typed: &Replay, report: &RunReport, replay: &mut dyn replay::Replay) 
     if let Some(map) = typed.map {
         return replay.map(pixels::map_id(map)).ok_or_else(|| pixels::missing(replay));
     }
-    let (mut frame, view) = replay.frame(None).ok_or_else(|| pixels::missing(replay))?;
+    let (mut frame, view) = replay.shoot(&Shot::default()).ok_or_else(|| pixels::missing(replay))?;
     let last_cut = report.events.iter().rev().find(|event| event.cut);
     let overlays = last_cut.map_or(&[][..], |event| &event.overlays);
     let drawings: Vec<Drawing<'_>> =

@@ -2,6 +2,7 @@
 
 mod delta;
 mod run;
+mod stop;
 mod trace;
 
 use std::collections::BTreeMap;
@@ -11,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 pub use delta::{Buffer, Difference, EventDelta, Scalar, StageDelta};
 pub use run::{Finding, RunReport, StateReport, Totals};
+pub use stop::Stop;
 pub use trace::trace;
 
 /// Version of the JSON report.
@@ -176,6 +178,11 @@ impl Overlay {
             Self::Points { name, .. } | Self::Line { name, .. } | Self::Faces { name, .. } => name,
         }
     }
+
+    /// What it is shown together with: the word before the first space of its name.
+    pub fn group(&self) -> &str {
+        self.name().split(' ').next().unwrap_or_default()
+    }
 }
 
 /// What a stage did at one event.
@@ -251,6 +258,9 @@ pub struct EventReport {
     /// Counts of the whole state, such as `faces` and `euler`, where it was digested.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub counts: BTreeMap<String, i64>,
+    /// What the state was made of before the event and after it, such as `faces`.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub sizes: BTreeMap<String, [u64; 2]>,
     /// Invariants of the whole state, where they were looked at.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub checks: Vec<Check>,
@@ -281,6 +291,7 @@ impl EventReport {
             state: None,
             state_buffers: BTreeMap::new(),
             counts: BTreeMap::new(),
+            sizes: BTreeMap::new(),
             checks: Vec::new(),
             tables: Vec::new(),
             overlays: Vec::new(),
