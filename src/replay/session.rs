@@ -312,6 +312,17 @@ impl<E: Engine> Session<E> {
     }
 }
 
+/// An error says that an event went through no such stage.
+fn require_row(report: &EventReport, stage: &str) -> Result<(), String> {
+    let ids: Vec<&str> = report.stages.iter().map(|row| row.id.as_str()).collect();
+    if ids.contains(&stage) {
+        return Ok(());
+    }
+    let of = report.reason.as_ref().map_or_else(String::new, |reason| format!(", rejected: {reason}"));
+    let has = if ids.is_empty() { "none".into() } else { ids.join(", ") };
+    Err(format!("event {} ({}{of}) has no stage `{stage}`; it has {has}", report.index, report.kind))
+}
+
 fn settle<E: Engine>(done: Option<Change<E>>, report: &mut EventReport, otherwise: Rejection) -> Change<E> {
     match done {
         Some(change) => {
@@ -380,6 +391,7 @@ impl<E: Engine> Replay for Session<E> {
             self.run_step(*key, input, &mut report, Some(stage));
             E::set_control(&mut self.state, before);
         }
+        require_row(&report, stage)?;
         Ok(report)
     }
 

@@ -2,6 +2,7 @@
 
 mod delta;
 mod run;
+mod stop;
 mod trace;
 
 use std::collections::BTreeMap;
@@ -11,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 pub use delta::{Buffer, Difference, EventDelta, Scalar, StageDelta};
 pub use run::{Finding, RunReport, StateReport, Totals};
+pub use stop::Stop;
 pub use trace::trace;
 
 /// Version of the JSON report.
@@ -175,6 +177,11 @@ impl Overlay {
         match self {
             Self::Points { name, .. } | Self::Line { name, .. } | Self::Faces { name, .. } => name,
         }
+    }
+
+    /// Its group: the first word of its name, such as `configuration` of `configuration FE`.
+    pub fn group(&self) -> &str {
+        self.name().split(' ').next().unwrap_or_default()
     }
 }
 
