@@ -179,7 +179,7 @@ impl Overlay {
         }
     }
 
-    /// Its group: the first word of its name, such as `configuration` of `configuration FE`.
+    /// What it is shown together with: the word before the first space of its name.
     pub fn group(&self) -> &str {
         self.name().split(' ').next().unwrap_or_default()
     }

@@ -263,12 +263,12 @@ fn runs_are_compared() {
 #[test]
 fn every_difference_of_two_runs_is_there() {
     let (_folder, script) = square();
-    let (_other, moved) = file("moved.json", SQUARE.replace("[60, 55]", "[60, 54]").as_bytes());
-    let out = lancet(&["diff", &script, &moved]).1;
-    let diff = json(&lancet(&["diff", &script, &moved, "--json"]).1);
+    let (_other, missed) = file("missed.json", SQUARE.replace("[60, 55]", "[60, 0.5]").as_bytes());
+    let out = lancet(&["diff", &script, &missed]).1;
+    let diff = json(&lancet(&["diff", &script, &missed, "--json"]).1);
     let (all, differing) = (diff["divergences"].as_array().unwrap(), diff["differing"].as_u64().unwrap());
     assert!(all.len() > 10 && all.len() as u64 == differing, "{diff}");
-    assert_eq!((&all[0], &all[0]["stage"]), (&diff["divergence"], &"FC".into()));
+    assert_eq!((&all[0], &all[0]["what"]), (&diff["divergence"], &"event 2".into()));
     assert!(diff["inputs"].as_str().unwrap().starts_with("events[2]: "), "{diff}");
     assert_eq!(out.lines().filter(|line| line.starts_with("then at ")).count(), 9, "{out}");
     assert!(out.contains(&format!("\nand {} more\n{differing} facts differ\n", differing - 10)), "{out}");
