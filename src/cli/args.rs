@@ -7,6 +7,7 @@ use std::str::FromStr;
 use clap::{Parser, Subcommand, ValueEnum, ValueHint};
 
 use crate::replay::Plant;
+use crate::report::Stop;
 use crate::verify::Shard;
 
 const AFTER: &str = "Exit status: 0 when all is verified, 1 when something diverged or an invariant broke, 2 for bad input or when \
@@ -174,6 +175,10 @@ pub(super) struct Replay {
     /// Stop after this event, or after a stage of it, such as 4.MC
     #[arg(long, value_name = "EVENT[.STAGE]")]
     pub(super) until: Option<Until>,
+    /// Stop after the first event with a broken invariant (`finding`), that was rejected (`rejected`, `rejected=miss`), that counted something
+    /// (`configurations=FE`), or with a stage that took more milliseconds (`MC>0.5`); may be said several times
+    #[arg(long, value_name = "WHAT", conflicts_with = "repeat")]
+    pub(super) stop_at: Vec<Stop>,
     /// Replay so many times, and say the median times; runs that differ are an error
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) repeat: u32,
@@ -192,25 +197,15 @@ pub(super) struct Replay {
     /// Write a picture of the end, as PNG
     #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
     pub(super) frame: Option<PathBuf>,
-    /// Draw over it: the mesh's edges, the last cut's line and picks, its faces by configuration
-    #[arg(long, value_enum, value_name = "WHAT", value_delimiter = ',', requires = "frame")]
-    pub(super) overlay: Vec<Overlay>,
+    /// Draw over it: the mesh's edges (`wire`), or whatever the last cut's report has to show, by its name or by the first word of it: `line`,
+    /// `picks`, `gutter`, `painted`, `configurations`
+    #[arg(long, value_name = "NAME", value_delimiter = ',', requires = "frame")]
+    pub(super) overlay: Vec<String>,
     /// Instead of the frame, a map as it is in the end
     #[arg(long, value_enum, value_name = "MAP", requires = "frame", conflicts_with = "overlay")]
     pub(super) map: Option<Map>,
     #[command(flatten)]
     pub(super) pixels: Pixels,
-}
-
-/// What is drawn over a frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Overlay {
-    /// The mesh's edges
-    Wire,
-    /// The last cut's line and picks
-    Line,
-    /// The faces that it crossed, by configuration
-    Configurations,
 }
 
 /// A map to write.

@@ -20,6 +20,7 @@ mod man;
 mod measure;
 mod merge;
 mod pack;
+mod picture;
 mod pixels;
 mod place;
 mod reduce;

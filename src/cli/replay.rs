@@ -1,14 +1,12 @@
 //! `lancet replay`: one recording, stage by stage.
 
-use super::args::{Overlay, Replay, Target, Until};
+use super::args::{Replay, Target, Until};
 use super::failure::Failure;
-use super::{Console, Done, Status, json, pixels, place, show};
+use super::{Console, Done, Status, json, picture, pixels, place, show};
 use crate::assets;
 use crate::canvas::Studio;
-use crate::canvas::image::Image;
-use crate::render::overlay::{self, Drawing};
-use crate::replay::{self, Case, Options, Shot};
-use crate::report::{self, RunReport, trace};
+use crate::replay::{self, Case, Options};
+use crate::report::{RunReport, Stop, trace};
 
 /// A replay, where it ended.
 type Replayed = Box<dyn replay::Replay>;
@@ -60,49 +58,67 @@ fn once(
     let (everything, pictures) = (typed.pixels.no_skip, typed.frame.is_some());
     let options = Options { paranoid: typed.paranoid, everything, pictures, ..Options::default() };
     let mut replay = case.replay(&case.recording, options, studio)?;
+    require_there(typed, replay.as_ref())?;
     let name = typed.recording.display().to_string();
-    let report = match &typed.until {
-        None => to_the_end(replay.as_mut(), &name, console),
-        Some(until) => up_to(until, replay.as_mut(), &name, console)?,
+    let (end, within) = match &typed.until {
+        None => (replay.len(), None),
+        Some(Until { event, stage: None }) => (event + 1, None),
+        Some(Until { event, stage: Some(stage) }) => (*event, Some(stage)),
+    };
+    let stopped = step_to(replay.as_mut(), end, &typed.stop_at, console);
+    let report = match within {
+        Some(stage) if !stopped => within_event(end, stage, replay.as_mut(), &name)?,
+        _ => replay.run_report(&name),
     };
     Ok((replay, report))
 }
 
-fn to_the_end(replay: &mut dyn replay::Replay, name: &str, console: &mut Console<'_>) -> RunReport {
-    let end = replay.len();
-    step_to(replay, end, console);
-    replay.run_report(name)
+/// What the recording has not is refused before anything is run.
+fn require_there(typed: &Replay, replay: &dyn replay::Replay) -> Result<(), Failure> {
+    let (events, stages) = (replay.len(), replay.stages());
+    if let Some(until) = typed.until.as_ref().filter(|until| until.event >= events) {
+        return Err(Failure::new(format_args!("there is no event {}; there are {events}", until.event)));
+    }
+    let ids: Vec<&str> = stages.into_iter().map(|(id, _)| id).collect();
+    let unknown = typed.stop_at.iter().find(|stop| stop.stage().is_some_and(|stage| !ids.contains(&stage)));
+    match unknown {
+        Some(stop) => Err(Failure::new(format_args!(
+            "--stop-at {stop}: there is no such stage; there are {}",
+            ids.join(", ")
+        ))),
+        None => Ok(()),
+    }
 }
 
-fn up_to(
-    until: &Until,
+/// The run with an event that goes no further than a stage of it.
+fn within_event(
+    event: usize,
+    stage: &str,
     replay: &mut dyn replay::Replay,
     name: &str,
-    console: &mut Console<'_>,
 ) -> Result<RunReport, Failure> {
-    if until.event >= replay.len() {
-        return Err(Failure::new(format_args!(
-            "there is no event {}; there are {}",
-            until.event,
-            replay.len()
-        )));
-    }
-    let Some(stage) = &until.stage else {
-        step_to(replay, until.event + 1, console);
-        return Ok(replay.run_report(name));
-    };
-    step_to(replay, until.event, console);
-    let last = replay.hold(until.event, stage).map_err(Failure::new)?;
+    let last = replay.hold(event, stage).map_err(Failure::new)?;
     let before = replay.run_report(name);
     let events = before.events.into_iter().chain([last]).collect();
     Ok(RunReport::new(name, replay.engine(), before.scene, events, None))
 }
 
-fn step_to(replay: &mut dyn replay::Replay, end: usize, console: &mut Console<'_>) {
+/// Runs events up to one, or to one at which it is to stop; whether that was so is said, and told.
+fn step_to(replay: &mut dyn replay::Replay, end: usize, stops: &[Stop], console: &mut Console<'_>) -> bool {
     let mut work = console.err.work();
-    while replay.position() < end && replay.step().is_some() {
+    let mut hit = None;
+    while let (true, None) = (replay.position() < end, hit) {
+        let Some(event) = replay.step() else { break };
+        hit = stops.iter().find(|stop| stop.hits(event));
         work.show(format_args!("event {} of {end}", replay.position()));
     }
+    drop(work);
+    match hit {
+        Some(stop) => console.err.note(format_args!("stopped after event {}: {stop}", replay.position() - 1)),
+        None if stops.is_empty() => {}
+        None => console.err.note("nothing stopped it"),
+    }
+    hit.is_some()
 }
 
 fn write(
@@ -112,7 +128,7 @@ fn write(
     console: &mut Console<'_>,
 ) -> Result<(), Failure> {
     if let Some(path) = &typed.frame {
-        pixels::write(&picture(typed, report, replay)?, path)?;
+        pixels::write(&picture::of(typed, report, replay)?, path)?;
     }
     json::write(report, typed.json.as_ref(), console)?;
     if let Some(target) = &typed.trace {
@@ -125,34 +141,4 @@ fn write(
         assets::export::save(mesh, path)?;
     }
     Ok(show::run(report, json::text([&typed.json, &typed.trace], console))?)
-}
-
-/// The frame as it is in the end with what is drawn over it, or a map.
-fn picture(typed: &Replay, report: &RunReport, replay: &mut dyn replay::Replay) -> Result<Image, Failure> {
-    if let Some(map) = typed.map {
-        return replay.map(pixels::map_id(map)).ok_or_else(|| pixels::missing(replay));
-    }
-    let (mut frame, view) = replay.shoot(&Shot::default()).ok_or_else(|| pixels::missing(replay))?;
-    let last_cut = report.events.iter().rev().find(|event| event.cut);
-    let overlays = last_cut.map_or(&[][..], |event| &event.overlays);
-    let drawings: Vec<Drawing<'_>> =
-        typed.overlay.iter().flat_map(|what| drawings(*what, overlays)).collect();
-    if let Some(mesh) = replay.mesh() {
-        overlay::draw(&mut frame.image, &view, mesh, &drawings);
-    }
-    Ok(frame.image)
-}
-
-/// What a word stands for, of what an event has to show.
-fn drawings(what: Overlay, shown: &[report::Overlay]) -> Vec<Drawing<'_>> {
-    let named = |names: &'static [&str]| {
-        shown.iter().filter(move |o| names.contains(&o.name())).map(Drawing::Shown).collect()
-    };
-    match what {
-        Overlay::Wire => vec![Drawing::Wire],
-        Overlay::Line => named(&["line", "picks"]),
-        Overlay::Configurations => {
-            shown.iter().filter(|o| o.name().starts_with("configuration ")).map(Drawing::Shown).collect()
-        }
-    }
 }

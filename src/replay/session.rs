@@ -329,6 +329,17 @@ impl<E: Engine> Session<E> {
     }
 }
 
+/// An error says that an event went through no such stage.
+fn require_row(report: &EventReport, stage: &str) -> Result<(), String> {
+    let ids: Vec<&str> = report.stages.iter().map(|row| row.id.as_str()).collect();
+    if ids.contains(&stage) {
+        return Ok(());
+    }
+    let of = report.reason.as_ref().map_or_else(String::new, |reason| format!(", rejected: {reason}"));
+    let has = if ids.is_empty() { "none".into() } else { ids.join(", ") };
+    Err(format!("event {} ({}{of}) has no stage `{stage}`; it has {has}", report.index, report.kind))
+}
+
 fn settle<E: Engine>(done: Option<Change<E>>, report: &mut EventReport, otherwise: Rejection) -> Change<E> {
     match done {
         Some(change) => {
@@ -419,7 +430,11 @@ impl<E: Engine> Replay for Session<E> {
             }
             report.sizes = sizes(&sizes_before, &E::sizes(&self.state));
         }
-        Ok(report)
+        let there = require_row(&report, stage);
+        if there.is_err() {
+            self.let_go();
+        }
+        there.map(|()| report)
     }
 
     fn release(&mut self) {

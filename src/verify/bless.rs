@@ -151,7 +151,7 @@ fn refused(path: &Path, why: String) -> Blessed {
 
 fn compared(path: &Path, found: &Found, stored: Stored) -> Blessed {
     let comparison = compare(found, &stored);
-    let same = comparison.divergence.is_none() && comparison.new.is_empty() && stored.problems.is_empty();
+    let same = comparison.differing == 0 && comparison.new.is_empty() && stored.problems.is_empty();
     let change = match (same, stored.is_empty()) {
         (true, _) => Change::Same,
         (false, true) => Change::New,
@@ -161,7 +161,7 @@ fn compared(path: &Path, found: &Found, stored: Stored) -> Blessed {
         recording: home::name(path),
         change,
         differing: comparison.differing,
-        divergence: comparison.divergence,
+        divergence: comparison.first(),
         new: comparison.new,
         goldens: [stored.problems, stored.orphans].concat(),
         error: None,

@@ -1,7 +1,7 @@
-//! Stored goldens against a run: what differs first, how much differs, and what is new.
+//! Stored goldens against a run: what differs, in the order of the run, how much differs, and what is new.
 //!
 //! Within an event, digests come before what they led to, in the order of the stages; what is missing comes last, since an event that
-//! ended early has said so in its outcome.
+//! ended early has said so in its outcome. Checks are compared between two runs alone, where both looked at them: a golden holds none.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -9,12 +9,12 @@ use std::fmt;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::facts::{Fact, Kind, Place};
+use super::facts::{self, Fact, Kind, Place};
 use super::golden::{Found, Stored};
 use super::values::Values;
 use crate::report::Buffer;
 
-/// The first place at which a run is not what its goldens say.
+/// A place at which a run is not what its goldens say.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Divergence {
     /// The event; none for the scene, the end and the sums.
@@ -55,11 +55,19 @@ impl fmt::Display for Divergence {
 /// What comparing a run came to.
 #[derive(Debug, Default)]
 pub(super) struct Comparison {
-    pub(super) divergence: Option<Divergence>,
+    /// Where they differ, in the order of the run; of very many the first [`NAMED`].
+    pub(super) divergences: Vec<Divergence>,
     /// How many facts differ.
     pub(super) differing: usize,
     /// What the goldens do not know, such as `digest GP.jobs`.
     pub(super) new: Vec<String>,
+}
+
+impl Comparison {
+    /// Where they differ first.
+    pub(super) fn first(&self) -> Option<Divergence> {
+        self.divergences.first().cloned()
+    }
 }
 
 /// A fact that differs: missing from one side, or of another value.
@@ -73,6 +81,8 @@ struct Differing<'a> {
 }
 
 const NOTHING: &str = "nothing";
+/// As many divergences are named: a recording has hundreds of facts, and a report should not grow with a long one's.
+const NAMED: usize = 1000;
 
 /// Compares a run with its goldens.
 pub(super) fn compare(found: &Found, stored: &Stored) -> Comparison {
@@ -86,6 +96,8 @@ pub(super) fn compare(found: &Found, stored: &Stored) -> Comparison {
             sides.push((Some(*name), Some(*event), expected.as_slice(), facts.as_slice()));
         }
     }
+    let looked_at = facts::in_both(&stored.checks, &facts::of_checks(&found.run));
+    sides.push((None, None, &looked_at[0], &looked_at[1]));
     let (mut all, mut new) = (Vec::new(), BTreeSet::new());
     for (checkpoint, event, expected, found) in sides {
         new.extend(unknown(expected, found));
@@ -93,9 +105,9 @@ pub(super) fn compare(found: &Found, stored: &Stored) -> Comparison {
     }
     // A run with something new in it has another digest: that alone says nothing.
     all.retain(|d| new.is_empty() || !(d.fact.place == Place::Total && d.fact.name == "digest"));
-    let first = all.iter().min_by_key(|d| d.order);
-    let divergence = first.map(|d| d.name(found, stored.values.as_ref()));
-    Comparison { divergence, differing: all.len(), new: new.into_iter().collect() }
+    all.sort_by_key(|d| d.order);
+    let named = all.iter().take(NAMED).map(|d| d.name(found, stored.values.as_ref()));
+    Comparison { divergences: named.collect(), differing: all.len(), new: new.into_iter().collect() }
 }
 
 type Key<'a> = (Place, Kind, &'a str);
@@ -115,7 +127,7 @@ fn unknown(expected: &[Fact], found: &[Fact]) -> BTreeSet<String> {
     let text = |f: &Fact| match f.kind {
         Kind::Digest => format!("digest {}", f.name),
         Kind::Counter => format!("counter {}", f.name),
-        Kind::Count => f.key(),
+        Kind::Count | Kind::Check => f.key(),
         Kind::Outcome => "events".into(),
     };
     unknown.map(text).collect()
@@ -172,6 +184,7 @@ impl<'a> Differing<'a> {
         match (self.fact.kind, self.fact.place) {
             (Kind::Digest, Place::Event(event)) => self.name_element(event, found, values, &mut divergence),
             (Kind::Digest, _) => divergence.buffer = Some(self.fact.name.clone()),
+            (Kind::Check, _) => divergence.stage = self.fact.name.split('.').next().map(Into::into),
             _ => {}
         }
         divergence

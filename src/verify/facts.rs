@@ -21,11 +21,12 @@
 //! A checkpoint's text tells of its frame too: size and digest are facts (`frame width = 640`, `frame digest image = 3f…`); who rendered the picture that
 //! was blessed (`renderer`, `adapter`, `shaders`) is, like the reason, there to be read, and is not compared.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 use crate::canvas::image::Image;
 use crate::canvas::{Adapter, Kind as Renderer};
-use crate::report::{Counter, EventReport, Outcome, RunReport};
+use crate::report::{Check, Counter, EventReport, Outcome, RunReport};
 
 /// Version of the text.
 const HEAD: &str = "lancet golden 1";
@@ -75,6 +76,8 @@ pub(super) enum Kind {
     Counter,
     /// A count of the whole state, or a sum.
     Count,
+    /// Whether an invariant held, `STAGE.CHECK`; no golden holds any.
+    Check,
 }
 
 /// One thing that a golden says.
@@ -101,6 +104,7 @@ impl Fact {
             Kind::Outcome => place.to_string(),
             Kind::Counter => format!("{place} counter {name}"),
             Kind::Count => format!("{place} {name}"),
+            Kind::Check => format!("{place} check {name}"),
         }
     }
 
@@ -171,6 +175,32 @@ pub(super) fn of_frame(image: &Image, exact: bool) -> Vec<Fact> {
     sides.into_iter().chain(digest).collect()
 }
 
+/// The invariants that a run looked at, in its order.
+pub(super) fn of_checks(run: &RunReport) -> Vec<Fact> {
+    let mut facts = Vec::new();
+    for event in &run.events {
+        let place = Place::Event(event.index);
+        event.stages.iter().for_each(|stage| facts.extend(checks(place, &stage.id, &stage.checks)));
+        facts.extend(checks(place, "state", &event.checks));
+    }
+    facts.extend(run.end.iter().flat_map(|end| checks(Place::End, "state", &end.checks)));
+    facts
+}
+
+fn checks(place: Place, stage: &str, checks: &[Check]) -> impl Iterator<Item = Fact> {
+    let word = |check: &Check| if check.ok { "holds" } else { "broken" };
+    checks.iter().map(move |c| Fact::new(place, Kind::Check, &format!("{stage}.{}", c.name), word(c)))
+}
+
+/// Of two lists of facts those that stand in both, whatever they say.
+pub(super) fn in_both(a: &[Fact], b: &[Fact]) -> [Vec<Fact>; 2] {
+    let shared = |of: &[Fact], with: &[Fact]| {
+        let there: BTreeSet<String> = with.iter().map(Fact::key).collect();
+        of.iter().filter(|fact| there.contains(&fact.key())).cloned().collect()
+    };
+    [shared(a, b), shared(b, a)]
+}
+
 fn of_event(event: &EventReport, facts: &mut Vec<Fact>) {
     let place = Place::Event(event.index);
     facts.push(Fact::new(place, Kind::Outcome, "", outcome(event)));
@@ -201,7 +231,7 @@ fn outcome(event: &EventReport) -> String {
     [&event.kind, word, event.reason.as_deref().unwrap_or("")].join(" ")
 }
 
-type ByName<T> = std::collections::BTreeMap<String, T>;
+type ByName<T> = BTreeMap<String, T>;
 
 fn counts(place: Place, counts: &ByName<i64>) -> impl Iterator<Item = Fact> {
     counts.iter().map(move |(name, n)| Fact::new(place, Kind::Count, name, n))

@@ -90,6 +90,8 @@ pub(super) struct Stored {
     pub(super) values: Option<Values>,
     /// By name.
     pub(super) checkpoints: BTreeMap<String, Vec<Fact>>,
+    /// What another run's invariants came to, where it is a run rather than goldens.
+    pub(super) checks: Vec<Fact>,
     /// By the checkpoint's name; none is there that is not of the frame's size.
     pub(super) pictures: BTreeMap<String, Picture>,
     /// The checkpoints whose text tells of a frame.

@@ -11,7 +11,7 @@ use super::golden::{Found, Stored};
 use super::image::{ImageReport, Rules};
 use super::report::{RecordingReport, Verdict};
 use super::{VerifyOptions, home, skips};
-use crate::canvas::Studio;
+use crate::canvas::{Adapter, Studio};
 use crate::replay::{self, Options, Planting, Replay};
 
 /// Opens a recording for replay, with whoever renders. An error says what is wrong with which file.
@@ -35,6 +35,15 @@ pub(super) enum Failure {
     Panic(String),
 }
 
+impl Failure {
+    /// The same for a person.
+    pub(super) fn why(self) -> String {
+        match self {
+            Self::BadInput(why) | Self::Panic(why) => why,
+        }
+    }
+}
+
 /// Replays a recording to its end.
 pub(super) fn run(
     path: &Path,
@@ -42,10 +51,21 @@ pub(super) fn run(
     studio: Option<&dyn Studio>,
     open: &Open<'_>,
 ) -> Result<Found, Failure> {
+    let adapter = studio.map(|studio| studio.adapter());
+    run_opened(&home::name(path), options, adapter, |options| open(path, options, studio))
+}
+
+/// Replays to its end what is opened, under a name.
+pub(super) fn run_opened(
+    name: &str,
+    options: &Options,
+    adapter: Option<&Adapter>,
+    open: impl FnOnce(Options) -> Result<Box<dyn Replay>, String>,
+) -> Result<Found, Failure> {
     let planted = options.plant.is_some();
     let options = Options { keep_deltas: true, budget_bytes: 0, ..options.clone() };
     let replayed = catch_unwind(AssertUnwindSafe(|| {
-        let mut replay = open(path, options, studio)?;
+        let mut replay = open(options)?;
         replay.finish();
         if let Some(error) = replay.failure() {
             return Err(format!("it cannot be rendered: {error}"));
@@ -55,9 +75,8 @@ pub(super) fn run(
             Planting::Open if planted => return Err("nothing to plant: the place was not reached".into()),
             _ => {}
         }
-        let found = Found::new(replay.run_report(&home::name(path)), replay.take_deltas());
-        let adapter = studio.map(|studio| studio.adapter().clone());
-        Ok(Found { frames: replay.take_frames(), adapter, ..found })
+        let found = Found::new(replay.run_report(name), replay.take_deltas());
+        Ok(Found { frames: replay.take_frames(), adapter: adapter.cloned(), ..found })
     }));
     match replayed {
         Ok(found) => found.map_err(Failure::BadInput),
@@ -71,6 +90,12 @@ fn panic_text(panic: &(dyn Any + Send)) -> String {
     format!("panicked: {}", text.unwrap_or("without a message"))
 }
 
+/// What was looked at: a run, and its goldens.
+pub(super) struct Seen {
+    pub(super) found: Found,
+    pub(super) stored: Stored,
+}
+
 /// Replays a recording and compares it with its goldens. With details, what a page shows of it comes along.
 pub(super) fn verify_one(
     path: &Path,
@@ -78,22 +103,36 @@ pub(super) fn verify_one(
     rules: Option<&Rules>,
     open: &Open<'_>,
 ) -> (RecordingReport, Option<Detail>) {
+    let (report, seen) = look(path, &options.replay, options.studio.as_deref(), rules, open);
+    let seen = seen.filter(|_| options.details);
+    let detail = seen.map(|Seen { found, stored }| Detail::new(&found, &stored, &report.images));
+    (report, detail)
+}
+
+/// Replays a recording and compares it with its goldens. Nothing was seen of one that has no run.
+pub(super) fn look(
+    path: &Path,
+    options: &Options,
+    studio: Option<&dyn Studio>,
+    rules: Option<&Rules>,
+    open: &Open<'_>,
+) -> (RecordingReport, Option<Seen>) {
     let clock = Instant::now();
     let mut report = RecordingReport::new(home::name(path));
-    let mut detail = None;
-    match run(path, &options.replay, options.studio.as_deref(), open) {
+    let mut seen = None;
+    match run(path, options, studio, open) {
         Ok(found) => {
             let stored = Stored::read(&home::goldens(path), &found);
             report.images = judge(&found, &stored, rules);
-            detail = options.details.then(|| Detail::new(&found, &stored, &report.images));
             let problems = [stored.problems.as_slice(), &stored.orphans].concat();
             describe(&mut report, &found, compare(&found, &stored), problems);
+            seen = Some(Seen { found, stored });
         }
         Err(Failure::BadInput(why)) => report.error = Some(why),
         Err(Failure::Panic(why)) => (report.verdict, report.error) = (Verdict::Failed, Some(why)),
     }
     report.ms = clock.elapsed().as_secs_f64() * 1e3;
-    (report, detail)
+    (report, seen)
 }
 
 fn judge(found: &Found, stored: &Stored, rules: Option<&Rules>) -> Vec<ImageReport> {
@@ -109,7 +148,8 @@ fn describe(report: &mut RecordingReport, found: &Found, comparison: Comparison,
     (report.checks, report.digest) = (found.run.checks(), totals.digest.clone());
     report.findings = found.run.findings().collect();
     report.skips = skips::of_run(&found.run.events);
-    (report.divergence, report.differing) = (comparison.divergence, comparison.differing);
+    (report.divergence, report.differing) = (comparison.first(), comparison.differing);
+    report.divergences = comparison.divergences;
     (report.new, report.goldens) = (comparison.new, problems);
     let clean = report.findings.is_empty() && report.divergence.is_none();
     let known = report.new.is_empty() && report.goldens.is_empty();

@@ -43,6 +43,9 @@ pub struct RecordingReport {
     pub findings: Vec<Finding>,
     /// Where it differs first from its goldens.
     pub divergence: Option<Divergence>,
+    /// Wherever it differs from them, in the order of the run; of very many the first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub divergences: Vec<Divergence>,
     /// How many facts differ from its goldens.
     pub differing: usize,
     /// The checkpoints' pictures.
@@ -76,6 +79,7 @@ impl RecordingReport {
             checks: 0,
             findings: Vec::new(),
             divergence: None,
+            divergences: Vec::new(),
             differing: 0,
             images: Vec::new(),
             skips: Vec::new(),

@@ -61,6 +61,86 @@ fn a_replay_stops_where_it_is_told() {
 }
 
 #[test]
+fn a_stage_that_an_event_has_not_is_an_error() {
+    let (_folder, script) = square();
+    let error = complaint(&["replay", &script, "--until", "0.MC"]);
+    assert!(error.contains("event 0 (mode) has no stage `MC`; it has none"), "{error}");
+    let error = complaint(&["replay", &script, "--until", "3.MC"]);
+    assert!(error.contains("event 3 (click, rejected: miss) has no stage `MC`"), "{error}");
+    let error = complaint(&["replay", &script, "--until", "2.SD"]);
+    assert!(error.contains("it has FC, GP, PP, MC, CI"), "{error}");
+}
+
+#[test]
+fn a_replay_stops_at_the_first_event_that_is_such_a_one() {
+    let (_folder, script) = square();
+    let stopped = |stops: &[&str]| {
+        let typed = stops.iter().flat_map(|stop| ["--stop-at", stop]);
+        let arguments: Vec<&str> = ["replay", &script, "--json", "-"].into_iter().chain(typed).collect();
+        let (status, out, err) = lancet(&arguments);
+        assert_eq!(status, Status::Verified, "{err}");
+        let note = err.lines().next().unwrap().to_owned();
+        (json(&out)["events"].as_array().unwrap().len(), note)
+    };
+    let note = |text: &str| format!("note: {text}");
+    assert_eq!(stopped(&["rejected"]), (4, note("stopped after event 3: rejected")));
+    assert_eq!(stopped(&["rejected=miss", "MC>0"]), (3, note("stopped after event 2: MC>0")));
+    assert_eq!(stopped(&["finding", "rejected=none"]), (6, note("nothing stopped it")));
+    let until = lancet(&["replay", &script, "--stop-at", "rejected", "--until", "2.FC"]);
+    assert!(until.2.contains("nothing stopped it") && until.1.contains("skipped: until"), "{until:?}");
+    let before = lancet(&["replay", &script, "--stop-at", "FC>0", "--until", "5.FC"]);
+    assert!(
+        before.2.contains("stopped after event 2: FC>0"),
+        "it stops before it comes to an event without FC"
+    );
+    let error = complaint(&["replay", &script, "--stop-at", "XY>1"]);
+    assert!(error.contains("--stop-at XY>1: there is no such stage; there are FC, GP"), "{error}");
+    assert!(complaint(&["replay", &script, "--stop-at", "cheese"]).contains("COUNTER=NAME"));
+    assert!(
+        complaint(&["replay", &script, "--stop-at", "finding", "--repeat", "2"])
+            .contains("cannot be used with")
+    );
+}
+
+#[test]
+fn a_frame_shows_whatever_the_report_has_to_show() {
+    let (folder, script) = square();
+    let frame = |overlay: &[&str]| {
+        let at = folder.path().join("frame.png").to_str().unwrap().to_owned();
+        let renderer = ["replay", &script, "--renderer", "reference", "--until", "2", "--frame", &at];
+        answer(&[&renderer[..], overlay].concat());
+        std::fs::read(at).unwrap()
+    };
+    let plain = frame(&[]);
+    for names in ["wire", "line", "picks", "configurations", "wire,line"] {
+        assert_ne!(frame(&["--overlay", names]), plain, "{names}");
+    }
+    let report = json(&lancet(&["replay", &script, "--json", "-"]).1);
+    let names = report["events"][2]["overlays"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|o| o.as_object().unwrap().values().next().unwrap()["name"].as_str().unwrap().to_owned());
+    names.for_each(|name| drop(frame(&["--overlay", &name])));
+    let at = folder.path().join("none.png");
+    let error = complaint(&[
+        "replay",
+        &script,
+        "--renderer",
+        "reference",
+        "--frame",
+        at.to_str().unwrap(),
+        "--overlay",
+        "cheese",
+    ]);
+    assert!(
+        error.contains("there is no overlay `cheese` of the last cut; there are wire, line, picks"),
+        "{error}"
+    );
+    assert!(!at.exists());
+}
+
+#[test]
 fn a_replay_writes_its_mesh_and_its_trace() {
     let (folder, script) = square();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
@@ -178,6 +258,20 @@ fn runs_are_compared() {
     answer(&["replay", &script, "--json", report.to_str().unwrap()]);
     assert!(answer(&["diff", report.to_str().unwrap(), &script]).contains("the runs are the same"));
     assert_eq!(lancet(&["diff", report.to_str().unwrap(), &moved]).0, Status::Diverged);
+}
+
+#[test]
+fn every_difference_of_two_runs_is_there() {
+    let (_folder, script) = square();
+    let (_other, missed) = file("missed.json", SQUARE.replace("[60, 55]", "[60, 0.5]").as_bytes());
+    let out = lancet(&["diff", &script, &missed]).1;
+    let diff = json(&lancet(&["diff", &script, &missed, "--json"]).1);
+    let (all, differing) = (diff["divergences"].as_array().unwrap(), diff["differing"].as_u64().unwrap());
+    assert!(all.len() > 10 && all.len() as u64 == differing, "{diff}");
+    assert_eq!((&all[0], &all[0]["what"]), (&diff["divergence"], &"event 2".into()));
+    assert!(diff["inputs"].as_str().unwrap().starts_with("events[2]: "), "{diff}");
+    assert_eq!(out.lines().filter(|line| line.starts_with("then at ")).count(), 9, "{out}");
+    assert!(out.contains(&format!("\nand {} more\n{differing} facts differ\n", differing - 10)), "{out}");
 }
 
 #[test]

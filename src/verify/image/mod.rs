@@ -3,6 +3,7 @@
 //! Equal bytes pass at once. Else the picture is [measured](distance) and held against the [gates](gates) of the adapter that rendered it; the
 //! CPU reference has none, since it is the same everywhere. Each golden also [proves](plant) that the gates would catch a defect in it.
 
+mod difference;
 mod distance;
 mod gates;
 mod plant;
@@ -14,6 +15,7 @@ pub(super) mod tests;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use difference::difference;
 pub use distance::{Distance, Metric};
 pub use gates::{Gate, GatesError, GatesFile, Known};
 pub use plant::{Defect, Planted, Proof};

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+mod all;
 mod pictures;
 
 use super::bless::bless_with;

@@ -11,7 +11,7 @@ use crate::verify::image::tests::{BACKGROUND, face, noise};
 use std::sync::Arc;
 
 /// What a painter does to each of its pictures.
-type Spoil = fn(Image) -> Image;
+pub(super) type Spoil = fn(Image) -> Image;
 
 /// A studio whose every frame is the same face.
 struct Painter {
@@ -29,11 +29,11 @@ fn painter(kind: Kind, name: &str, spoil: Spoil) -> Arc<dyn Studio> {
     Arc::new(Painter { adapter, spoil, lost: false })
 }
 
-fn reference() -> Arc<dyn Studio> {
+pub(super) fn reference() -> Arc<dyn Studio> {
     painter(Kind::Reference, "CPU reference", |image| image)
 }
 
-fn gpu(spoil: Spoil) -> Arc<dyn Studio> {
+pub(super) fn gpu(spoil: Spoil) -> Arc<dyn Studio> {
     painter(Kind::Gpu, "llvmpipe (LLVM 15.0.6, 256 bits)", spoil)
 }
 
@@ -93,7 +93,7 @@ impl Renderer for Painter {
 }
 
 /// So many recordings of a square with one checkpoint, blessed from the reference.
-fn drawn(count: usize) -> Suite {
+pub(super) fn drawn(count: usize) -> Suite {
     let suite = Suite::new(&[]);
     let bytes = packed(&SQUARE.replace("[100, 100]", "[128, 96]"));
     (0..count).for_each(|at| suite.put(&format!("recordings/wound/square-{at}.lancet"), &bytes));
@@ -111,7 +111,7 @@ impl Suite {
         bless(&self.paths(), &BlessOptions { studio: Some(studio.clone()), ..because("a test") }, &())
     }
 
-    fn gauge_by(&self, studio: &Arc<dyn Studio>, dry_run: bool) -> GaugeReport {
+    pub(super) fn gauge_by(&self, studio: &Arc<dyn Studio>, dry_run: bool) -> GaugeReport {
         let options = BlessOptions { studio: Some(studio.clone()), dry_run, ..because("a test") };
         gauge(&self.paths(), &options, &())
     }

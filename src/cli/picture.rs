@@ -1,0 +1,97 @@
+//! The picture of a replay's end: the frame with what was asked for drawn over it, or a map.
+
+use super::args::Replay;
+use super::console::printable;
+use super::failure::Failure;
+use super::pixels;
+use crate::canvas::image::Image;
+use crate::render::overlay::{self, Drawing};
+use crate::replay::{self, Shot};
+use crate::report::{Overlay, RunReport};
+
+/// The overlays that are no report's, by name.
+const OURS: [(&str, Drawing<'static>); 1] = [("wire", Drawing::Wire)];
+
+/// The frame as it is in the end with what is drawn over it, or a map.
+pub(super) fn of(
+    typed: &Replay,
+    report: &RunReport,
+    replay: &mut dyn replay::Replay,
+) -> Result<Image, Failure> {
+    if let Some(map) = typed.map {
+        return replay.map(pixels::map_id(map)).ok_or_else(|| pixels::missing(replay));
+    }
+    let last_cut = report.events.iter().rev().find(|event| event.cut);
+    let drawings = drawings(&typed.overlay, last_cut.map_or(&[], |event| &event.overlays))?;
+    let (mut frame, view) = replay.shoot(&Shot::default()).ok_or_else(|| pixels::missing(replay))?;
+    if let Some(mesh) = replay.mesh() {
+        overlay::draw(&mut frame.image, &view, mesh, &drawings);
+    }
+    Ok(frame.image)
+}
+
+/// What some names stand for, of what an event has to show.
+fn drawings<'a>(names: &[String], shown: &'a [Overlay]) -> Result<Vec<Drawing<'a>>, Failure> {
+    let mut drawings = Vec::new();
+    for name in names {
+        let before = drawings.len();
+        drawings.extend(OURS.iter().filter(|(ours, _)| ours == name).map(|(_, drawing)| *drawing));
+        drawings.extend(shown.iter().filter(|overlay| goes_by(overlay, name)).map(Drawing::Shown));
+        if drawings.len() == before {
+            return Err(unknown(name, shown));
+        }
+    }
+    Ok(drawings)
+}
+
+/// Whether an overlay is called so, or its group is, in the plural too: `configurations` are all whose first word is `configuration`.
+fn goes_by(overlay: &Overlay, name: &str) -> bool {
+    let group = overlay.group();
+    overlay.name() == name || group == name || name.strip_suffix('s').is_some_and(|one| one == group)
+}
+
+fn unknown(name: &str, shown: &[Overlay]) -> Failure {
+    let mut names: Vec<&str> = OURS.iter().map(|(ours, _)| *ours).collect();
+    for group in shown.iter().map(Overlay::group) {
+        if !names.contains(&group) {
+            names.push(group);
+        }
+    }
+    let (name, names) = (printable(name), names.join(", "));
+    Failure::new(format_args!("there is no overlay `{name}` of the last cut; there are {names}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shown() -> Vec<Overlay> {
+        let faces = |name: &str| Overlay::Faces { name: name.into(), faces: vec![1] };
+        vec![faces("line"), faces("kind A"), faces("kind B")]
+    }
+
+    fn drawn(names: &[&str]) -> Result<Vec<String>, String> {
+        let (shown, names) = (shown(), names.iter().map(ToString::to_string).collect::<Vec<_>>());
+        let name = |drawing: &Drawing<'_>| match drawing {
+            Drawing::Shown(overlay) => overlay.name().to_owned(),
+            ours => format!("{ours:?}"),
+        };
+        let drawn = drawings(&names, &shown).map_err(|failure| failure.to_string())?;
+        Ok(drawn.iter().map(name).collect())
+    }
+
+    #[test]
+    fn overlays_go_by_their_names_and_by_their_groups() {
+        assert_eq!(drawn(&["line", "wire"]).unwrap(), ["line", "Wire"]);
+        assert_eq!(drawn(&["kind B"]).unwrap(), ["kind B"]);
+        assert_eq!(drawn(&["kind"]).unwrap(), ["kind A", "kind B"]);
+        assert_eq!(drawn(&["kinds"]).unwrap(), ["kind A", "kind B"]);
+        assert!(drawn(&[]).unwrap().is_empty());
+    }
+
+    #[test]
+    fn a_name_that_nothing_goes_by_is_an_error_that_says_what_there_is() {
+        let error = drawn(&["line", "B"]).unwrap_err();
+        assert_eq!(error, "there is no overlay `B` of the last cut; there are wire, line, kind");
+    }
+}
