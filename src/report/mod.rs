@@ -2,6 +2,7 @@
 
 mod delta;
 mod run;
+mod text;
 mod trace;
 
 use std::collections::BTreeMap;
@@ -11,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 pub use delta::{Buffer, Difference, EventDelta, Scalar, StageDelta};
 pub use run::{Finding, RunReport, StateReport, Totals};
+pub use text::printable;
 pub use trace::trace;
 
 /// Version of the JSON report.
