@@ -27,6 +27,7 @@ pub(super) enum Command {
     Merge(Merge),
     Bless(Bless),
     Replay(Replay),
+    Tui(Tui),
     Render(Render),
     Pack(Pack),
     Unpack(Unpack),
@@ -206,6 +207,23 @@ pub(super) struct Replay {
     pub(super) map: Option<Map>,
     #[command(flatten)]
     pub(super) pixels: Pixels,
+}
+
+/// Step through a recording in the terminal, and record new ones
+#[derive(Debug, clap::Args)]
+pub(super) struct Tui {
+    /// The recording
+    #[arg(value_name = "REC", value_hint = ValueHint::FilePath)]
+    pub(super) recording: Option<PathBuf>,
+    /// Who renders
+    #[arg(long, value_enum, default_value_t, value_name = "WHO")]
+    pub(super) renderer: Renderer,
+    /// Megabytes that going back may take, beside what undo and redo need
+    #[arg(long, value_name = "MB", default_value_t = 256)]
+    pub(super) budget: u32,
+    /// The settings to use [default: config.toml in the user's folder of settings]
+    #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
+    pub(super) config: Option<PathBuf>,
 }
 
 /// A map to write.

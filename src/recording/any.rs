@@ -1,7 +1,7 @@
 //! The engines that a recording can be for. This file is the only place of the room that lists them.
 
-use crate::engine::{Event, Input};
 use crate::engine::wound::WoundEvent;
+use crate::engine::{Event, Input};
 
 use super::{Recording, SceneRef};
 
