@@ -8,6 +8,7 @@
 //! resize does not flicker, and a panic half way through one leaves nothing behind. What could be lost
 //! while the program goes on (a panic that a worker survives, `kill -STOP` and `fg`) is taken again with the next frame.
 
+mod events;
 mod signals;
 
 use std::cell::RefCell;
@@ -32,6 +33,7 @@ use ratatui::crossterm::terminal::{
 use ratatui::crossterm::{cursor, terminal};
 use ratatui::layout::Size;
 
+pub use events::listen;
 use signals::Signals;
 
 /// Terminals drop longer sequences; xterm's and tmux's limits lie above it.
@@ -93,8 +95,8 @@ impl Terminal {
         self.signals.continued() || !*taken()
     }
 
-    /// Whether the program was asked to end: by a signal, or because the terminal was closed. A wait for events does not return for it, so
-    /// it needs a limit.
+    /// Whether the program was asked to end: by a signal, or because the terminal was closed. No event comes with it, so a wait for events
+    /// needs a limit.
     pub fn ended(&self) -> bool {
         self.signals.ended()
     }
@@ -225,6 +227,8 @@ fn synchronized(frame: &[u8]) -> io::Result<Vec<u8>> {
 
 #[cfg(test)]
 mod tests {
+    use std::num::NonZeroU16;
+
     use super::*;
     use vt100::{MouseProtocolMode, Parser};
 
@@ -237,7 +241,8 @@ mod tests {
 
     #[test]
     fn what_is_taken_is_given_back_even_twice() {
-        let mut parser = Parser::new(5, 20, 0);
+        let mut parser =
+            Parser::new(NonZeroU16::new(5).expect("rows"), NonZeroU16::new(20).expect("columns"), 0);
         parser.process(b"$ lancet tui\r\n");
         let before = state(&parser);
         for mouse in [true, false] {
