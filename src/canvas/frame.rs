@@ -68,6 +68,17 @@ fn usual_lights() -> Vec<Spotlight> {
     ]
 }
 
+/// Where one looks from, as angles and a distance around a target that stays.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Orbit {
+    /// Angle around the vertical axis, radians.
+    pub azimuth: f64,
+    /// Angle from straight up, radians, 0 to π.
+    pub zenith: f64,
+    /// Eye to target, model units.
+    pub distance: f64,
+}
+
 /// Where one looks from, and what the picture measures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {

@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::pixels;
 use crate::canvas::image::Image;
 use crate::render::overlay::{self, Drawing};
-use crate::replay;
+use crate::replay::{self, Shot};
 use crate::report::{Overlay, RunReport};
 
 /// The overlays that are no report's, by name.
@@ -23,7 +23,7 @@ pub(super) fn of(
     }
     let last_cut = report.events.iter().rev().find(|event| event.cut);
     let drawings = drawings(&typed.overlay, last_cut.map_or(&[], |event| &event.overlays))?;
-    let (mut frame, view) = replay.frame(None).ok_or_else(|| pixels::missing(replay))?;
+    let (mut frame, view) = replay.shoot(&Shot::default()).ok_or_else(|| pixels::missing(replay))?;
     if let Some(mesh) = replay.mesh() {
         overlay::draw(&mut frame.image, &view, mesh, &drawings);
     }

@@ -12,7 +12,7 @@ use super::failure::Failure;
 use super::{Console, Done, Status, check, json, pixels, show};
 use crate::canvas::Adapter;
 use crate::recording::{Script, ScriptError};
-use crate::replay::{Case, Options};
+use crate::replay::{Case, Options, Shot};
 use crate::report::Pass;
 
 /// The answer in JSON.
@@ -33,7 +33,7 @@ pub(super) fn run(typed: &Render, console: &mut Console<'_>) -> Done {
     let options = Options { pictures: true, everything: typed.pixels.no_skip, ..Options::default() };
     let mut replay = case.replay(&case.recording, options, Some(studio.as_ref()))?;
     replay.finish();
-    let (frame, view) = replay.frame(None).ok_or_else(|| pixels::missing(replay.as_ref()))?;
+    let (frame, view) = replay.shoot(&Shot::default()).ok_or_else(|| pixels::missing(replay.as_ref()))?;
     pixels::write(&frame.image, &typed.output)?;
     let answer = Answer {
         scene: &typed.scene,

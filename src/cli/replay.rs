@@ -46,14 +46,7 @@ fn require_possible(typed: &Replay) -> Result<(), Failure> {
     files
         .chain(&typed.export_mesh)
         .chain(&typed.frame)
-        .try_for_each(|output| place::require_other(&typed.recording, output))?;
-    let within_event = typed.until.as_ref().is_some_and(|until| until.stage.is_some());
-    if within_event && typed.export_mesh.is_some() {
-        return Err(Failure::new(
-            "an event that stops at a stage is taken back, so --export-mesh needs --until EVENT without a stage",
-        ));
-    }
-    Ok(())
+        .try_for_each(|output| place::require_other(&typed.recording, output))
 }
 
 fn once(
@@ -104,7 +97,7 @@ fn within_event(
     replay: &mut dyn replay::Replay,
     name: &str,
 ) -> Result<RunReport, Failure> {
-    let last = replay.until(event, stage).map_err(Failure::new)?;
+    let last = replay.hold(event, stage).map_err(Failure::new)?;
     let before = replay.run_report(name);
     let events = before.events.into_iter().chain([last]).collect();
     Ok(RunReport::new(name, replay.engine(), before.scene, events, None))

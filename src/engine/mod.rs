@@ -6,6 +6,7 @@
 //!
 //! An engine knows no front end, file, clock, thread of its own, renderer, nor another engine.
 
+mod input;
 pub mod wound;
 
 use std::fmt::Debug;
@@ -15,10 +16,12 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::canvas::frame::FrameJob;
+use crate::canvas::frame::{FrameJob, Orbit};
 use crate::canvas::job::{Painting, PatchJob};
 use crate::mesh::Mesh;
 use crate::report::{Buffer, Check, Counters, Outcome, Overlay, Rejection, Table};
+
+pub use input::Input;
 
 /// What the session itself does with an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,6 +46,12 @@ pub trait Event:
     fn control(&self) -> Control<'_>;
     /// What is wrong with the values in it, if anything (not finite, out of range, a name that does not exist).
     fn validate(&self) -> Result<(), String>;
+    /// The modes that can be chosen by hand, in the order in which they go further.
+    const MODES: &'static [&'static str] = &[];
+    /// The event that something done by hand is. None where the engine has no such thing.
+    fn by_hand(_input: &Input) -> Option<Self> {
+        None
+    }
 }
 
 /// How an event began.
@@ -151,6 +160,10 @@ pub trait Engine: Sized + 'static {
     fn buffers(state: &Self::State) -> Vec<Buffer>;
     /// The invariants of the whole state.
     fn check(state: &Self::State) -> Vec<Check>;
+    /// What the body is made of, by name (`faces`, `nodes`, …), in a fixed order. Asked before and after every edit, so it has to be quick.
+    fn sizes(_state: &Self::State) -> Vec<(&'static str, u64)> {
+        Vec::new()
+    }
     /// Counts of the whole state by name (`faces`, `nodes`, `euler`, …), in a fixed order.
     fn counts(state: &Self::State) -> Vec<(&'static str, i64)>;
     /// The surface to show and to export, where the engine has one.
@@ -161,6 +174,12 @@ pub trait Engine: Sized + 'static {
     fn paintings(_state: &Self::State) -> &[Arc<Painting>] {
         &[]
     }
+    /// Where one looks from, where the engine has a camera.
+    fn orbit(_state: &Self::State) -> Option<Orbit> {
+        None
+    }
+    /// Looks from elsewhere, for a picture: what is recorded stays, since the control state is put back after it.
+    fn look(_state: &mut Self::State, _orbit: Orbit) {}
     /// The picture to render, where the engine has one. A version names a state of the mesh; with `everything` nothing is skipped.
     fn frame(_state: &Self::State, _version: u64, _everything: bool) -> Option<FrameJob<'_>> {
         None

@@ -1,7 +1,7 @@
 //! The engines that a recording can be for. This file is the only place of the room that lists them.
 
-use crate::engine::Event;
 use crate::engine::wound::WoundEvent;
+use crate::engine::{Event, Input};
 
 use super::{Recording, SceneRef};
 
@@ -107,6 +107,33 @@ impl AnyRecording {
         each!(self, recording => recording.events.len())
     }
 
+    /// The modes that can be chosen by hand.
+    pub fn modes(&self) -> &'static [&'static str] {
+        struct Modes;
+        impl Visit for Modes {
+            type Output = &'static [&'static str];
+            fn visit<E: Recorded>(self, _: &Recording<E>) -> Self::Output {
+                E::MODES
+            }
+        }
+        self.visit(Modes)
+    }
+
+    /// The events as they stand in a script, a line of JSON each.
+    pub fn event_lines(&self) -> Vec<String> {
+        each!(self, recording => recording.events.iter().map(|keyed| line(&keyed.event)).collect())
+    }
+
+    /// Adds what was done by hand, and says its key. An error says why it cannot be recorded.
+    pub fn append(&mut self, input: &Input) -> Result<u32, String> {
+        each!(self, recording => recording.append(input))
+    }
+
+    /// Drops all events but the first few.
+    pub fn truncate(&mut self, events: usize) {
+        each!(self, recording => recording.events.truncate(events));
+    }
+
     /// Says where the scene is.
     pub fn set_scene(&mut self, scene: SceneRef) {
         each!(self, recording => recording.scene = scene);
@@ -116,4 +143,9 @@ impl AnyRecording {
     pub fn set_hashes(&mut self, [scene, mesh]: [[u8; 32]; 2]) {
         each!(self, recording => (recording.scene_hash, recording.mesh_hash) = (scene, mesh));
     }
+}
+
+/// An event that cannot be written says so: it is one that no script gave.
+fn line<E: Event>(event: &E) -> String {
+    serde_json::to_string(event).unwrap_or_else(|error| format!("{}: {error}", event.kind()))
 }

@@ -24,7 +24,7 @@ mod summary;
 #[cfg(test)]
 mod tests;
 
-use crate::engine::Event;
+use crate::engine::{Event, Input};
 
 pub use any::{AnyRecording, ENGINES, Recorded, Visit};
 pub use diff::{InputDifference, first_difference};
@@ -67,6 +67,18 @@ impl<E: Event> Recording<E> {
     #[must_use]
     pub fn with_events(&self, events: Vec<Keyed<E>>) -> Self {
         Self { scene: self.scene.clone(), events, ..*self }
+    }
+
+    /// Adds what was done by hand, under a key that no event had. An error says why it cannot be recorded.
+    pub fn append(&mut self, input: &Input) -> Result<u32, String> {
+        let event: E = input.event()?;
+        let mut names = rules::Names::default();
+        self.events.iter().try_for_each(|keyed| names.admit(&keyed.event))?;
+        names.admit(&event)?;
+        let last = self.events.iter().map(|keyed| keyed.key).max();
+        let key = last.map_or(Some(0), |last| last.checked_add(1)).ok_or("no key is left")?;
+        self.events.push(Keyed { key, event });
+        Ok(key)
     }
 
     /// What is wrong with it, if anything: the place (`viewport`, `events[3].cut.from`), then what.

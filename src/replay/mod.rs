@@ -31,8 +31,9 @@ pub use session::Session;
 pub use stages::{Plant, Planting};
 
 use crate::canvas::RenderError;
-use crate::canvas::frame::{Frame, View};
+use crate::canvas::frame::{Frame, Orbit, View};
 use crate::canvas::image::{Image, MapId};
+use crate::engine::Input;
 use crate::mesh::Mesh;
 use crate::report::{EventDelta, EventReport, Finding, RunReport, StateReport};
 
@@ -57,6 +58,15 @@ pub struct Options {
 
 /// The largest frame of a checkpoint: larger views are rendered smaller, in their own shape.
 pub const CHECKPOINT_SIZE: [u32; 2] = [640, 360];
+
+/// A picture to take of the state as it is now.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Shot {
+    /// Where to look from, if not from where the recording does.
+    pub orbit: Option<Orbit>,
+    /// What it is no larger than: larger views are rendered smaller, in their own shape.
+    pub limit: Option<[u32; 2]>,
+}
 
 /// A checkpoint's frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -104,11 +114,26 @@ pub trait Replay: Send {
     /// Goes back to before the last event. False at the beginning.
     fn back(&mut self) -> bool;
     /// Goes to the state before an event, or to the end.
-    fn seek(&mut self, event: usize);
-    /// Runs an event up to and including a stage, and takes it back. An error says why there is no such place.
-    fn until(&mut self, event: usize, stage: &str) -> Result<EventReport, String>;
+    fn seek(&mut self, event: usize) {
+        self.seek_while(event, &mut |_| true);
+    }
+    /// The same, for as long as it is told to go on: asked with the position after every event on the way. False where it was stopped, at
+    /// whatever event that was.
+    fn seek_while(&mut self, event: usize, go_on: &mut dyn FnMut(usize) -> bool) -> bool;
+    /// Runs an event up to and including a stage, and stays there: mesh and pictures are those within the event, until the next step, seek
+    /// or hold, which takes it back first. An error says why there is no such place.
+    fn hold(&mut self, event: usize, stage: &str) -> Result<EventReport, String>;
+    /// Takes back what is held.
+    fn release(&mut self);
+    /// Adds what was done by hand to the end of the recording, under a key of its own. From then on nothing is an end: the whole state is looked
+    /// at when that is asked for.
+    fn append(&mut self, key: u32, input: &Input) -> Result<(), String>;
+    /// Drops all events but the first few.
+    fn truncate(&mut self, events: usize);
     /// The report of an event that was run.
     fn event(&self, index: usize) -> Option<&EventReport>;
+    /// The whole state after the last event, once that was reached.
+    fn end(&self) -> Option<&StateReport>;
     /// The first broken invariant.
     fn finding(&self) -> Option<&Finding>;
     /// The report of the run as far as it has gone, under the recording's name.
@@ -121,8 +146,14 @@ pub trait Replay: Send {
     fn take_deltas(&mut self) -> Vec<EventDelta>;
     /// What became of the defect to plant.
     fn planting(&self) -> &Planting;
-    /// Renders the state as it is now, no larger than a limit. None without a renderer.
-    fn frame(&mut self, limit: Option<[u32; 2]>) -> Option<(Frame, View)>;
+    /// What the state is made of now, by name: what can be told quickly.
+    fn sizes(&self) -> Vec<(&'static str, u64)>;
+    /// Where the recording looks from now, where the engine has a camera.
+    fn orbit(&self) -> Option<Orbit>;
+    /// Bytes that are kept for seeking, beside what undo and redo need.
+    fn kept_bytes(&self) -> usize;
+    /// Renders the state as it is now. None without a renderer.
+    fn shoot(&mut self, shot: &Shot) -> Option<(Frame, View)>;
     /// A map as it is now. None without a renderer.
     fn map(&mut self, map: MapId) -> Option<Image>;
     /// The frames of the checkpoints that were run since this was last asked.

@@ -5,13 +5,13 @@ use std::sync::Arc;
 
 use super::digest;
 use super::pixels::Pixels;
-use super::stages::{Pipeline, Planting};
+use super::stages::{Pipeline, Planting, require_row};
 use super::timeline::{Change, Keyframe, Stacks, Step, Timeline};
-use super::{CHECKPOINT_SIZE, CheckpointFrame, Options, Replay};
-use crate::canvas::frame::{Frame, View};
+use super::{CHECKPOINT_SIZE, CheckpointFrame, Options, Replay, Shot};
+use crate::canvas::frame::{Frame, Orbit, View};
 use crate::canvas::image::{Image, MapId};
 use crate::canvas::{RenderError, Renderer};
-use crate::engine::{Control, Engine, Event, Start};
+use crate::engine::{Control, Engine, Event, Input, Start};
 use crate::mesh::Mesh;
 use crate::report::{
     Check, EventDelta, EventReport, Finding, Outcome, Rejection, RunReport, StageDelta, StateReport,
@@ -20,7 +20,7 @@ use crate::report::{
 /// A recording being replayed by an engine.
 pub struct Session<E: Engine> {
     /// Key and event.
-    events: Arc<[(u32, E::Event)]>,
+    events: Arc<Vec<(u32, E::Event)>>,
     seed: u64,
     options: Options,
     state: E::State,
@@ -41,13 +41,17 @@ pub struct Session<E: Engine> {
     frames: Vec<CheckpointFrame>,
     /// Another number whenever the body may be another.
     version: u64,
+    /// The event that stopped at a stage, and the control state before it.
+    held: Option<(E::Work, E::Control)>,
+    /// Events may come yet: there is no end to look at.
+    live: bool,
 }
 
 impl<E: Engine> Session<E> {
     /// Stands before the first of some events, each with its key.
     pub fn new(state: E::State, events: Vec<(u32, E::Event)>, seed: u64, options: Options) -> Self {
         let mut session = Self {
-            events: events.into(),
+            events: Arc::new(events),
             seed,
             first: E::control(&state),
             scene: counts::<E>(&state),
@@ -63,6 +67,8 @@ impl<E: Engine> Session<E> {
             pixels: Pixels::default(),
             frames: Vec::new(),
             version: 0,
+            held: None,
+            live: false,
             options,
         };
         session.look_at_end();
@@ -78,11 +84,6 @@ impl<E: Engine> Session<E> {
     /// The state as it is now.
     pub fn engine_state(&self) -> &E::State {
         &self.state
-    }
-
-    /// Bytes that are kept for seeking, beside what undo and redo need.
-    pub fn kept_bytes(&self) -> usize {
-        self.timeline.bytes()
     }
 
     /// Runs or walks the event at the position. False at the end.
@@ -137,14 +138,16 @@ impl<E: Engine> Session<E> {
         let events = Arc::clone(&self.events);
         let (key, event) = &events[index];
         let before = E::control(&self.state);
+        let sizes_before = E::sizes(&self.state);
         let mut report = EventReport::new(index, event.kind());
         let change = match event.control() {
-            Control::Step => self.run_step(*key, event, &mut report, None),
+            Control::Step => self.run_step(*key, event, &mut report),
             Control::Undo => self.undo(event, &mut report),
             Control::Redo => self.redo(event, &mut report),
             Control::Checkpoint(name) => self.checkpoint(event, name, &mut report),
         };
         report.mode = E::mode(&self.state).into();
+        report.sizes = sizes(&sizes_before, &E::sizes(&self.state));
         self.stacks.edits += usize::from(change.is_edit());
         self.version += u64::from(change.is_edit());
         self.look_after(&mut report, change.is_edit());
@@ -152,23 +155,35 @@ impl<E: Engine> Session<E> {
         self.keep_report(report);
     }
 
-    /// The engine's own work: through the stages, then kept or taken back. With a last stage always taken back.
-    fn run_step(
+    /// The engine's own work: through the stages, then kept or taken back.
+    fn run_step(&mut self, key: u32, event: &E::Event, report: &mut EventReport) -> Change<E> {
+        match self.run_stages(key, event, report, None) {
+            Some((mut work, Ok(()))) => self.commit(&mut work, report),
+            Some((mut work, Err(rejection))) => {
+                report.reject(rejection);
+                self.roll_back(&mut work)
+            }
+            None => Change::None,
+        }
+    }
+
+    /// Through the stages, or up to one; none where there is nothing to run through them. The transaction stays open.
+    fn run_stages(
         &mut self,
         key: u32,
         event: &E::Event,
         report: &mut EventReport,
         last: Option<&str>,
-    ) -> Change<E> {
+    ) -> Option<(E::Work, Result<(), Rejection>)> {
         let seed = digest::event_seed(self.seed, key, "cut");
         let work = match E::start(&mut self.state, event, seed) {
             Start::Done(outcome) => {
                 report.outcome = outcome;
-                return Change::None;
+                return None;
             }
             Start::Rejected(rejection) => {
                 report.reject(rejection);
-                return Change::None;
+                return None;
             }
             Start::Run(work) => work,
         };
@@ -178,18 +193,20 @@ impl<E: Engine> Session<E> {
         pipeline.last = last;
         let result = pipeline.run();
         pipeline.describe(report);
-        let Pipeline { mut work, deltas, planting, .. } = pipeline;
+        let Pipeline { work, deltas, planting, .. } = pipeline;
         self.keep_deltas(report.index, deltas);
         if planting != Planting::Open {
             self.planting = planting;
         }
-        match result {
-            Ok(()) if last.is_none() => self.commit(&mut work, report),
-            Ok(()) => self.roll_back(&mut work),
-            Err(rejection) => {
-                report.reject(rejection);
-                self.roll_back(&mut work)
-            }
+        Some((work, result))
+    }
+
+    /// Takes back what is held.
+    fn let_go(&mut self) {
+        if let Some((mut work, before)) = self.held.take() {
+            E::rollback(&mut self.state, &mut work);
+            E::set_control(&mut self.state, before);
+            self.version += 1;
         }
     }
 
@@ -263,7 +280,7 @@ impl<E: Engine> Session<E> {
 
     /// Looks at the whole state when the last event is done for the first time.
     fn look_at_end(&mut self) {
-        if self.position == self.events.len() && self.end.is_none() {
+        if self.position == self.events.len() && self.end.is_none() && !self.live {
             let end = self.state();
             let broken = end.checks.iter().find(|c| !c.ok).cloned();
             self.latch(broken.map(|check| Finding { event: None, stage: "state".into(), check }));
@@ -312,17 +329,6 @@ impl<E: Engine> Session<E> {
     }
 }
 
-/// An error says that an event went through no such stage.
-fn require_row(report: &EventReport, stage: &str) -> Result<(), String> {
-    let ids: Vec<&str> = report.stages.iter().map(|row| row.id.as_str()).collect();
-    if ids.contains(&stage) {
-        return Ok(());
-    }
-    let of = report.reason.as_ref().map_or_else(String::new, |reason| format!(", rejected: {reason}"));
-    let has = if ids.is_empty() { "none".into() } else { ids.join(", ") };
-    Err(format!("event {} ({}{of}) has no stage `{stage}`; it has {has}", report.index, report.kind))
-}
-
 fn settle<E: Engine>(done: Option<Change<E>>, report: &mut EventReport, otherwise: Rejection) -> Change<E> {
     match done {
         Some(change) => {
@@ -334,6 +340,10 @@ fn settle<E: Engine>(done: Option<Change<E>>, report: &mut EventReport, otherwis
             Change::None
         }
     }
+}
+
+fn sizes(before: &[(&'static str, u64)], after: &[(&'static str, u64)]) -> BTreeMap<String, [u64; 2]> {
+    before.iter().zip(after).map(|((name, old), (_, new))| ((*name).into(), [*old, *new])).collect()
 }
 
 fn counts<E: Engine>(state: &E::State) -> BTreeMap<String, i64> {
@@ -358,6 +368,7 @@ impl<E: Engine> Replay for Session<E> {
     }
 
     fn step(&mut self) -> Option<&EventReport> {
+        self.let_go();
         let index = self.position;
         if self.forward() { self.reports.get(index) } else { None }
     }
@@ -370,16 +381,26 @@ impl<E: Engine> Replay for Session<E> {
         true
     }
 
-    fn seek(&mut self, event: usize) {
+    fn seek_while(&mut self, event: usize, go_on: &mut dyn FnMut(usize) -> bool) -> bool {
+        self.let_go();
         let event = event.min(self.events.len());
-        while self.position > event && self.walk_back() {}
+        while self.position > event && self.walk_back() {
+            if self.position > event && !go_on(self.position) {
+                return false;
+            }
+        }
         if self.position > event {
             self.restore(event);
         }
-        while self.position < event && self.forward() {}
+        while self.position < event && self.forward() {
+            if self.position < event && !go_on(self.position) {
+                return false;
+            }
+        }
+        true
     }
 
-    fn until(&mut self, event: usize, stage: &str) -> Result<EventReport, String> {
+    fn hold(&mut self, event: usize, stage: &str) -> Result<EventReport, String> {
         self.require_stage(event, stage)?;
         self.seek(event);
         let events = Arc::clone(&self.events);
@@ -387,16 +408,48 @@ impl<E: Engine> Replay for Session<E> {
         let mut report = EventReport::new(event, input.kind());
         report.mode = E::mode(&self.state).into();
         if input.control() == Control::Step {
-            let before = E::control(&self.state);
-            self.run_step(*key, input, &mut report, Some(stage));
-            E::set_control(&mut self.state, before);
+            let (before, sizes_before) = (E::control(&self.state), E::sizes(&self.state));
+            match self.run_stages(*key, input, &mut report, Some(stage)) {
+                Some((work, result)) => {
+                    self.held = Some((work, before));
+                    self.version += 1;
+                    result.map_or_else(|rejection| report.reject(rejection), drop);
+                }
+                None => E::set_control(&mut self.state, before),
+            }
+            report.sizes = sizes(&sizes_before, &E::sizes(&self.state));
         }
-        require_row(&report, stage)?;
+        require_row(&report, stage).inspect_err(|_| self.let_go())?;
         Ok(report)
+    }
+
+    fn release(&mut self) {
+        self.let_go();
+    }
+
+    fn append(&mut self, key: u32, input: &Input) -> Result<(), String> {
+        let event = input.event()?;
+        Arc::make_mut(&mut self.events).push((key, event));
+        (self.live, self.end) = (true, None);
+        Ok(())
+    }
+
+    fn truncate(&mut self, events: usize) {
+        if events < self.events.len() {
+            self.seek(self.position.min(events));
+            Arc::make_mut(&mut self.events).truncate(events);
+            self.reports.truncate(events);
+            self.timeline.truncate(events);
+            (self.live, self.end) = (true, None);
+        }
     }
 
     fn event(&self, index: usize) -> Option<&EventReport> {
         self.reports.get(index)
+    }
+
+    fn end(&self) -> Option<&StateReport> {
+        self.end.as_ref()
     }
 
     fn finding(&self) -> Option<&Finding> {
@@ -427,8 +480,25 @@ impl<E: Engine> Replay for Session<E> {
         &self.planting
     }
 
-    fn frame(&mut self, limit: Option<[u32; 2]>) -> Option<(Frame, View)> {
-        self.render(limit)
+    fn sizes(&self) -> Vec<(&'static str, u64)> {
+        E::sizes(&self.state)
+    }
+
+    fn orbit(&self) -> Option<Orbit> {
+        E::orbit(&self.state)
+    }
+
+    fn kept_bytes(&self) -> usize {
+        self.timeline.bytes()
+    }
+
+    fn shoot(&mut self, shot: &Shot) -> Option<(Frame, View)> {
+        let Some(orbit) = shot.orbit else { return self.render(shot.limit) };
+        let before = E::control(&self.state);
+        E::look(&mut self.state, orbit);
+        let rendered = self.render(shot.limit);
+        E::set_control(&mut self.state, before);
+        rendered
     }
 
     fn map(&mut self, map: MapId) -> Option<Image> {

@@ -4,6 +4,7 @@ use proptest::prelude::*;
 
 use super::toy::{Toy, ToyEvent, ToyState};
 use super::*;
+use crate::engine::Input;
 use crate::report::Outcome;
 use ToyEvent::{Add, Checkpoint, Click, Halve, Leak, Redo, Undo};
 
@@ -180,15 +181,48 @@ fn the_key_and_not_the_place_makes_an_events_seed() {
 }
 
 #[test]
-fn until_runs_some_stages_and_takes_them_back() {
+fn holding_runs_some_stages_and_stays_until_it_is_let_go() {
     let mut session = session(&[Click(1), Add(2, 3.0)]);
-    let report = session.until(1, "AD").expect("there is such a place");
+    let report = session.hold(1, "AD").expect("there is such a place");
     assert!(report.stages[0].digest.is_some());
     assert_eq!(report.stages[1].skipped.as_deref(), Some("until"));
     assert_eq!(session.position(), 1);
+    assert!(session.engine_state().numbers[2] >= 3.0, "one is within the event");
+    session.release();
     assert_eq!(session.engine_state().numbers, [0.0; 8]);
     assert_eq!(session.engine_state().control.pending, Some(1));
-    assert!(session.until(1, "XX").is_err() && session.until(2, "AD").is_err());
+    session.hold(1, "AD").expect("there is such a place");
+    session.step();
+    let linear = finished(&[Click(1), Add(2, 3.0)], Options::default());
+    assert_eq!(session.engine_state(), linear.engine_state(), "a step lets go first");
+    assert!(session.hold(1, "XX").is_err() && session.hold(2, "AD").is_err());
+}
+
+#[test]
+fn what_is_appended_runs_as_if_it_had_been_there_and_can_be_dropped() {
+    let script = |text: &str| Input::Script(text.into());
+    let mut live = session(&[Click(1), Add(2, 3.0)]);
+    live.finish();
+    live.append(7, &script(r#"{"Add": [1, 4.0]}"#)).expect("an event");
+    assert!(live.append(8, &script("{")).is_err() && live.append(8, &Input::Undo).is_err());
+    assert_eq!((live.len(), live.run_report("").end), (3, None), "what may go on has no end");
+    live.finish();
+    let grown = live.engine_state().clone();
+    live.truncate(2);
+    assert_eq!((live.len(), live.position()), (2, 2));
+    live.append(7, &script(r#"{"Add": [1, 4.0]}"#)).expect("an event");
+    live.finish();
+    assert_eq!((live.engine_state(), live.finding()), (&grown, None));
+}
+
+#[test]
+fn a_seek_can_be_stopped_and_taken_up_again() {
+    let mut session = session(&[Add(0, 1.0), Add(1, 1.0), Add(2, 1.0), Add(3, 1.0)]);
+    assert!(!session.seek_while(4, &mut |position| position < 2));
+    assert_eq!(session.position(), 2);
+    assert!(session.seek_while(4, &mut |_| true));
+    assert!(!session.seek_while(0, &mut |position| position > 3));
+    assert_eq!(session.position(), 3);
 }
 
 #[test]

@@ -201,6 +201,14 @@ impl<E: Engine> Timeline<E> {
         self.trim(event);
     }
 
+    /// Forgets what is known of an event and of all after it.
+    pub(super) fn truncate(&mut self, events: usize) {
+        let steps = self.steps.split_off(&events);
+        self.step_bytes -= steps.values().map(Step::bytes).sum::<usize>();
+        let keyframes = self.keyframes.split_off(&(events + 1));
+        self.keyframe_bytes -= keyframes.values().map(Keyframe::bytes).sum::<usize>();
+    }
+
     /// Whether a keyframe before this event is worth its bytes.
     pub(super) fn wants_keyframe(&self, event: usize, state_bytes: usize) -> bool {
         let new = event > 0 && !self.keyframes.contains_key(&event);

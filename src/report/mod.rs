@@ -258,6 +258,9 @@ pub struct EventReport {
     /// Counts of the whole state, such as `faces` and `euler`, where it was digested.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub counts: BTreeMap<String, i64>,
+    /// What the state was made of before the event and after it, such as `faces`.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub sizes: BTreeMap<String, [u64; 2]>,
     /// Invariants of the whole state, where they were looked at.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub checks: Vec<Check>,
@@ -288,6 +291,7 @@ impl EventReport {
             state: None,
             state_buffers: BTreeMap::new(),
             counts: BTreeMap::new(),
+            sizes: BTreeMap::new(),
             checks: Vec::new(),
             tables: Vec::new(),
             overlays: Vec::new(),

@@ -4,11 +4,12 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::event::{Mode, Pick, Value, WoundEvent};
+use super::camera::Camera;
+use super::event::{Pick, Value, WoundEvent};
 use super::settings::{FIRST, SETTINGS, Setting};
 use super::state::{Before, Control, Cut, Edit, State, Work};
 use super::{checks, pick, show, stages, subdivide, view};
-use crate::canvas::frame::FrameJob;
+use crate::canvas::frame::{FrameJob, Orbit};
 use crate::canvas::job::Painting;
 use crate::engine::{Control as EventControl, Engine, Event, Shown, Stage, Start};
 use crate::mesh::refine::Refined;
@@ -85,11 +86,7 @@ impl Engine for Wound {
     }
 
     fn mode(state: &State) -> &'static str {
-        match state.control.mode {
-            Mode::Patch => "patch",
-            Mode::Merge => "merge",
-            Mode::Carve => "carve",
-        }
+        state.control.mode.name()
     }
 
     fn buffers(state: &State) -> Vec<Buffer> {
@@ -118,8 +115,23 @@ impl Engine for Wound {
         &state.paintings
     }
 
+    fn orbit(state: &State) -> Option<Orbit> {
+        let Camera { azimuth, zenith, distance, .. } = state.control.camera;
+        Some(Orbit { azimuth, zenith, distance })
+    }
+
+    fn look(state: &mut State, orbit: Orbit) {
+        state.control.camera.change(&orbit.into());
+    }
+
     fn frame(state: &State, version: u64, everything: bool) -> Option<FrameJob<'_>> {
         Some(view::frame(state, version, everything))
+    }
+
+    fn sizes(state: &State) -> Vec<(&'static str, u64)> {
+        let mesh = &state.mesh;
+        let sizes = [mesh.face_count(), mesh.node_count(), mesh.edge_count(), mesh.vertex_count()];
+        ["faces", "nodes", "edges", "vertices"].into_iter().zip(sizes.map(|size| size as u64)).collect()
     }
 
     fn counts(state: &State) -> Vec<(&'static str, i64)> {

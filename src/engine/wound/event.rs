@@ -6,7 +6,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::settings;
-use crate::engine::{Control, Event};
+use crate::canvas::frame::Orbit;
+use crate::engine::{Control, Event, Input};
 use crate::mesh::{EdgeId, FaceId, NodeId};
 
 /// How far a cut goes (Lam 2016, §6.3).
@@ -22,6 +23,19 @@ pub enum Mode {
     Carve,
 }
 
+impl Mode {
+    const ALL: [Self; 3] = [Self::Patch, Self::Merge, Self::Carve];
+
+    /// Its name, as in scripts.
+    pub(super) fn name(self) -> &'static str {
+        WoundEvent::MODES[self as usize]
+    }
+
+    fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|mode| mode.name() == name)
+    }
+}
+
 /// A new view. What is left out stays as it is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -35,6 +49,12 @@ pub struct CameraChange {
     /// Eye to target, model units.
     #[serde(default)]
     pub distance: Option<f64>,
+}
+
+impl From<Orbit> for CameraChange {
+    fn from(Orbit { azimuth, zenith, distance }: Orbit) -> Self {
+        Self { azimuth: Some(azimuth), zenith: Some(zenith), distance: Some(distance) }
+    }
 }
 
 /// Where a cut begins or ends.
@@ -157,6 +177,20 @@ impl Event for WoundEvent {
             Self::Checkpoint(name) => Control::Checkpoint(name),
             _ => Control::Step,
         }
+    }
+
+    const MODES: &'static [&'static str] = &["patch", "merge", "carve"];
+
+    fn by_hand(input: &Input) -> Option<Self> {
+        Some(match input {
+            Input::Look(orbit) => Self::Camera((*orbit).into()),
+            Input::Mode(name) => Self::Mode(Mode::named(name)?),
+            Input::Point(at) => Self::Click(*at),
+            Input::Undo => Self::Undo {},
+            Input::Redo => Self::Redo {},
+            Input::Checkpoint(name) => Self::Checkpoint(name.clone()),
+            Input::Script(_) => return None,
+        })
     }
 
     fn validate(&self) -> Result<(), String> {

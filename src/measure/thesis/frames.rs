@@ -17,7 +17,7 @@ use crate::engine::wound::{Pick, Value, WoundEvent};
 use crate::measure::figure::table;
 use crate::measure::{Figure, MeasureError, Progress};
 use crate::recording::{Keyed, Recorded, Recording, SceneRef};
-use crate::replay::{self, OpenError, Options, Replay};
+use crate::replay::{self, OpenError, Options, Replay, Shot};
 use crate::report::{Outcome, Pass, Table};
 
 const VIEWPORT: [u32; 2] = [1280, 720];
@@ -128,7 +128,7 @@ fn rounds(
 }
 
 fn frame(view: &mut dyn Replay) -> Result<Vec<Pass>, MeasureError> {
-    match (view.frame(None), view.failure()) {
+    match (view.shoot(&Shot::default()), view.failure()) {
         (Some((frame, _)), _) => Ok(frame.passes),
         (None, Some(error)) => Err(MeasureError::Render(error.clone())),
         (None, None) => Err(MeasureError::Rejected("the engine has no picture".into())),

@@ -94,7 +94,7 @@ fn sample(
     let none = || MeasureError::NoCut(path.display().to_string());
     let cut = first_cut(replay.as_mut()).ok_or_else(none)?;
     // Stopped after its last stage, the cut is taken back, so that each run begins where the first did. The first one warms up.
-    let runs = (0..=repeat).map(|_| replay.until(cut, STAGES[4])).skip(1);
+    let runs = (0..=repeat).map(|_| replay.hold(cut, STAGES[4])).skip(1);
     let runs = runs.collect::<Result<Vec<EventReport>, String>>().map_err(MeasureError::Rejected)?;
     if let Some(error) = replay.failure() {
         return Err(MeasureError::Render(error.clone()));
