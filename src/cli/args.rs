@@ -197,6 +197,8 @@ pub(super) struct Replay {
     /// Write a picture of the end, as PNG
     #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
     pub(super) frame: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) viewpoint: Viewpoint,
     /// Draw over it: the mesh's edges (`wire`), or whatever the last cut's report has to show, by its name or by the first word of it: `line`,
     /// `picks`, `gutter`, `painted`, `configurations`
     #[arg(long, value_name = "NAME", value_delimiter = ',', requires = "frame")]
@@ -206,6 +208,20 @@ pub(super) struct Replay {
     pub(super) map: Option<Map>,
     #[command(flatten)]
     pub(super) pixels: Pixels,
+}
+
+/// Where a picture is taken from, rather than from where the recording looks.
+#[derive(Clone, Copy, Debug, Default, clap::Args)]
+pub(super) struct Viewpoint {
+    /// Look from another angle around the vertical axis, radians
+    #[arg(long, value_name = "A", allow_negative_numbers = true, requires = "frame", conflicts_with = "map")]
+    pub(super) azimuth: Option<f64>,
+    /// Look from another angle from straight up, radians, 0 to π
+    #[arg(long, value_name = "Z", allow_negative_numbers = true, requires = "frame", conflicts_with = "map")]
+    pub(super) zenith: Option<f64>,
+    /// Look from another distance to the target, model units
+    #[arg(long, value_name = "D", allow_negative_numbers = true, requires = "frame", conflicts_with = "map")]
+    pub(super) distance: Option<f64>,
 }
 
 /// A map to write.
