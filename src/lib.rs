@@ -15,12 +15,11 @@
 //! | [`replay`] | the session: events through stages, clock, digests, checks, journal, keyframes, seek |
 //! | [`verify`] | goldens and their pictures: compare, bless, shard and merge, pages |
 //! | [`measure`] | time against error, stability, scaling, the thesis's tables |
+//! | [`tui`] | the terminal: the same reports, to step through |
 //! | [`cli`] | the command line |
 //!
 //! Data flows one way: recording → replay → engine → report → front end. `geometry` and `mesh` lie under the engines. `tests/layers.rs`
 //! keeps it: it parses every path, and a room that it does not know fails.
-//!
-//! A room to come: `tui`, beside `cli`.
 //!
 //! # Rules of the house
 //!
@@ -63,4 +62,6 @@ pub mod recording;
 pub mod render;
 pub mod replay;
 pub mod report;
+#[cfg(feature = "tui")]
+pub mod tui;
 pub mod verify;

@@ -64,6 +64,21 @@ const ROOMS: &[Room] = &[
         why: "it times whatever there is, and answers with reports",
     },
     Room {
+        name: "tui",
+        may_name: &[
+            "assets",
+            "canvas",
+            "measure",
+            "mesh",
+            "recording",
+            "render",
+            "replay",
+            "report",
+            "verify",
+        ],
+        why: "a front end shows reports: it computes nothing, and knows no engine",
+    },
+    Room {
         name: "cli",
         may_name: &["assets", "canvas", "measure", "recording", "render", "replay", "report", "verify"],
         why: "a front end shows reports: it computes nothing, and knows no engine",
@@ -85,8 +100,8 @@ const BANS: &[Ban] = &[
     Ban { path: "std::env::args_os", but: &["main"], why: "what was typed is passed in" },
     Ban {
         path: "std::env::var_os",
-        but: &["assets/cache.rs"],
-        why: "LANCET_CACHE_DIR is all that the environment decides",
+        but: &["assets/cache.rs", "tui/environment.rs"],
+        why: "LANCET_CACHE_DIR, and how a screen looks, are all that the environment decides",
     },
     Ban { path: "std::env::var", but: &[], why: "an environment must not decide what a run does" },
     Ban {
@@ -100,8 +115,16 @@ const BANS: &[Ban] = &[
         but: &["verify/suite.rs", "cli/verify.rs", "cli/doctor.rs", "measure"],
         why: "whole recordings run side by side; within a run there is one order",
     },
-    Ban { path: "std::io::stdin", but: &[], why: "input is a file that is named" },
-    Ban { path: "std::io::stdout", but: &[], why: "writers are passed in" },
+    Ban {
+        path: "std::io::stdin",
+        but: &["tui/terminal/mod.rs"],
+        why: "input is a file that is named, or keys of a terminal that was taken",
+    },
+    Ban {
+        path: "std::io::stdout",
+        but: &["tui/terminal/mod.rs"],
+        why: "writers are passed in, but a terminal is given back from wherever a panic happens",
+    },
     Ban { path: "std::collections::HashMap", but: &[], why: "its order differs from run to run" },
     Ban { path: "std::collections::HashSet", but: &[], why: "its order differs from run to run" },
     Ban { path: "std::collections::hash_map::HashMap", but: &[], why: "its order differs from run to run" },

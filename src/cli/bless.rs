@@ -5,10 +5,11 @@ use std::io::{self, Write};
 use anstyle::{AnsiColor, Style};
 
 use super::args::{Bless, Renderer};
-use super::console::{Channel, printable};
+use super::console::Channel;
 use super::table::{Cell, TextTable};
 use super::verify::{Line, jobs, status};
 use super::{Console, Done, pixels};
+use crate::report::printable;
 use crate::verify::{self, BlessOptions, BlessReport, Blessed, Change, GaugeReport};
 
 pub(super) fn run(typed: &Bless, console: &mut Console<'_>) -> Done {

@@ -11,6 +11,8 @@ use anstream::{AutoStream, ColorChoice};
 use anstyle::{AnsiColor, Style};
 use clap::builder::StyledStr;
 
+use crate::report::printable;
+
 /// The two streams of a command.
 pub struct Console<'a> {
     pub(super) out: Channel<'a>,
@@ -151,13 +153,6 @@ impl Drop for Work<'_, '_> {
     }
 }
 
-/// A text that may hold a file's name: control characters, with which a name could write over the terminal, are spelled out.
-pub(super) fn printable(text: impl ToString) -> String {
-    let spelled =
-        |c: char| if c.is_control() && c != '\n' { c.escape_default().collect() } else { c.to_string() };
-    text.to_string().chars().map(spelled).collect()
-}
-
 impl Write for Channel<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         if self.gone {
@@ -209,11 +204,6 @@ mod tests {
             format!("{ERASE_LINE}1 of 3{ERASE_LINE}done\n")
         );
         assert_eq!(terminal(Duration::ZERO, command), "done\n");
-    }
-
-    #[test]
-    fn a_name_cannot_write_over_the_terminal() {
-        assert_eq!(printable("a\u{1b}[31m\u{1}é"), "a\\u{1b}[31m\\u{1}é");
     }
 
     #[test]

@@ -3,9 +3,10 @@
 use std::io::{self, Write};
 
 use super::args::Diff;
-use super::console::{Channel, printable};
+use super::console::Channel;
 use super::failure::Failure;
 use super::{Console, Done, Status, json};
+use crate::report::printable;
 use crate::verify;
 
 /// As many divergences are shown; `--json` has more.

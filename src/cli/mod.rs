@@ -33,6 +33,7 @@ mod show;
 mod table;
 #[cfg(test)]
 mod tests;
+mod tui;
 mod unpack;
 mod verify;
 
@@ -83,6 +84,7 @@ fn dispatch(command: Command, console: &mut Console<'_>) -> Done {
         Command::Merge(typed) => merge::run(&typed, console),
         Command::Bless(typed) => bless::run(&typed, console),
         Command::Replay(typed) => replay::run(&typed, console),
+        Command::Tui(typed) => tui::run(&typed),
         Command::Render(typed) => render::run(&typed, console),
         Command::Pack(typed) => pack::run(&typed, console),
         Command::Unpack(typed) => unpack::run(&typed, console),

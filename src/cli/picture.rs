@@ -1,13 +1,12 @@
 //! The picture of a replay's end: the frame with what was asked for drawn over it, or a map.
 
 use super::args::Replay;
-use super::console::printable;
 use super::failure::Failure;
 use super::{orbit, pixels};
 use crate::canvas::image::Image;
 use crate::render::overlay::{self, Drawing};
 use crate::replay::{self, Shot};
-use crate::report::{Overlay, RunReport};
+use crate::report::{Overlay, RunReport, printable};
 
 /// The overlays that are no report's, by name.
 const OURS: [(&str, Drawing<'static>); 1] = [("wire", Drawing::Wire)];

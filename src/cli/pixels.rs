@@ -13,16 +13,19 @@ use crate::replay::Replay;
 
 /// Opens the renderer that was typed. What `auto` came to is said where it is the CPU reference.
 pub(super) fn studio(typed: Renderer, console: &mut Console<'_>) -> Result<Box<dyn Studio>, Failure> {
-    let choice = match typed {
-        Renderer::Auto => Choice::Auto,
-        Renderer::Gpu => Choice::Gpu,
-        Renderer::Reference => Choice::Reference,
-    };
-    let studio = render::studio(choice).map_err(Failure::new)?;
+    let studio = render::studio(choice(typed)).map_err(Failure::new)?;
     if typed == Renderer::Auto && studio.adapter().kind == Kind::Reference {
         console.err.note("no Vulkan adapter: the CPU reference renders");
     }
     Ok(studio)
+}
+
+pub(super) fn choice(typed: Renderer) -> Choice {
+    match typed {
+        Renderer::Auto => Choice::Auto,
+        Renderer::Gpu => Choice::Gpu,
+        Renderer::Reference => Choice::Reference,
+    }
 }
 
 /// Writes a picture.

@@ -7,13 +7,14 @@ use std::thread::available_parallelism;
 use anstyle::AnsiColor;
 
 use super::args::{Reports, Target, Verify};
-use super::console::{Channel, Work, printable};
+use super::console::{Channel, Work};
 use super::failure::Failure;
 use super::table::{Cell, TextTable};
 use super::{Console, Done, Status, json, pixels};
 use crate::assets;
 use crate::canvas::Studio;
 use crate::replay::Options;
+use crate::report::printable;
 use crate::verify::{self, Blob, Progress, RecordingReport, Skips, Verdict, VerifyOptions, VerifyReport};
 
 pub(super) fn run(typed: &Verify, console: &mut Console<'_>) -> Done {

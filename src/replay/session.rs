@@ -419,8 +419,11 @@ impl<E: Engine> Replay for Session<E> {
             }
             report.sizes = sizes(&sizes_before, &E::sizes(&self.state));
         }
-        require_row(&report, stage).inspect_err(|_| self.let_go())?;
-        Ok(report)
+        let there = require_row(&report, stage);
+        if there.is_err() {
+            self.let_go();
+        }
+        there.map(|()| report)
     }
 
     fn release(&mut self) {

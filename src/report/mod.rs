@@ -3,6 +3,7 @@
 mod delta;
 mod run;
 mod stop;
+mod text;
 mod trace;
 
 use std::collections::BTreeMap;
@@ -13,6 +14,7 @@ use serde::{Deserialize, Serialize};
 pub use delta::{Buffer, Difference, EventDelta, Scalar, StageDelta};
 pub use run::{Finding, RunReport, StateReport, Totals};
 pub use stop::Stop;
+pub use text::printable;
 pub use trace::trace;
 
 /// Version of the JSON report.

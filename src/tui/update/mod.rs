@@ -1,0 +1,68 @@
+//! What happens: keys, the mouse and the worker's words change the model, and nothing else does.
+//!
+//! A key goes to what lies on top: a popup takes it first; then the actions that count where the focus is; then those that count everywhere.
+
+mod focus;
+mod step;
+mod told;
+
+pub(in crate::tui) use step::{beat, go};
+pub(in crate::tui) use told::told;
+
+use crate::tui::action::Action;
+use crate::tui::model::{Effect, Model};
+use crate::tui::worker::Ask;
+
+/// Asks for the picture that is wanted, if it is not the one that is there or was asked for.
+pub(in crate::tui) fn want_picture(model: &mut Model) {
+    let Some(shot) = model.picture.shot(model) else { return };
+    model.picture.asked = Some((model.place, shot.clone()));
+    model.ask(Ask::Shoot(Box::new(shot)));
+}
+
+/// Does something.
+pub(in crate::tui) fn act(model: &mut Model, action: Action) {
+    use Action as A;
+    match action {
+        A::NextEvent
+        | A::PreviousEvent
+        | A::NextStage
+        | A::PreviousStage
+        | A::NextCut
+        | A::PreviousCut
+        | A::NextCheckpoint
+        | A::PreviousCheckpoint
+        | A::First
+        | A::Last
+        | A::FirstFinding
+        | A::Play
+        | A::Faster
+        | A::Slower
+        | A::RunOn
+        | A::Cancel
+        | A::Check => step::act(model, action),
+        A::Up
+        | A::Down
+        | A::PageUp
+        | A::PageDown
+        | A::Top
+        | A::Bottom
+        | A::Select
+        | A::SelectNothing
+        | A::NextTable
+        | A::FocusNext
+        | A::FocusPrevious
+        | A::FocusTimeline
+        | A::FocusStages
+        | A::FocusMesh
+        | A::FocusPicture
+        | A::FocusTables
+        | A::FocusChecks
+        | A::FocusDifferences
+        | A::Maximise => focus::act(model, action),
+        A::Suspend => model.effects.push(Effect::Suspend),
+        A::Redraw => model.effects.push(Effect::Redraw),
+        A::Quit => model.done = true,
+        other => model.complain(format!("{} is not there yet", other.row().name)),
+    }
+}

@@ -1,0 +1,67 @@
+//! What the worker tells.
+
+use crate::tui::action::Action;
+use crate::tui::model::{Model, Place, Progress};
+use crate::tui::worker::{Ask, Opened, Told};
+
+/// Takes a word of the worker's.
+pub(in crate::tui) fn told(model: &mut Model, told: Told) {
+    match told {
+        Told::Opened(opened) => open(model, *opened),
+        Told::Report(report) => {
+            model.timing.add(&report);
+            model.reports.push(report);
+        }
+        Told::End(end) => model.end = Some(*end),
+        Told::Finding(finding) => model.finding = Some(*finding),
+        Told::At(standing) => model.standing = Some(*standing),
+        Told::Progress { what, done, of } => model.progress = Some(Progress { what, done, of }),
+        Told::Idle { urgent } => idle(model, urgent),
+        Told::Picture(picture) => model.picture.got = Some(*picture),
+        Told::Checked(state) => {
+            let broken = state.checks.iter().filter(|check| !check.ok).count();
+            let all = state.checks.len();
+            model.checked = Some((model.place, *state));
+            match broken {
+                0 => model.say(format!("all {all} invariants of the whole state hold here")),
+                _ => {
+                    model.complain(format!("{broken} of {all} invariants of the whole state are broken here"))
+                }
+            }
+        }
+        Told::Stopped(why) => {
+            model.playing = None;
+            model.say(format!("stopped: {why}"));
+        }
+        Told::Failed(why) => model.complain(why),
+    }
+}
+
+fn open(model: &mut Model, opened: Opened) {
+    let Model { size, focus, maximised, pace, stops, effects, asked, answered, .. } = std::mem::take(model);
+    let kept = Model { size, focus, maximised, pace, stops, effects, asked, answered, ..Model::default() };
+    *model = Model { opened: Some(opened), ..kept };
+    model.ask(Ask::Learn);
+}
+
+/// Where the worker got to by itself, or was stopped, is where the screen goes too, unless it has been sent on since.
+fn idle(model: &mut Model, urgent: bool) {
+    model.answered += u64::from(urgent);
+    if model.answered < model.asked {
+        return;
+    }
+    model.progress = None;
+    if let Some(standing) = &model.standing
+        && standing.place != model.place
+    {
+        model.place = standing.place;
+        model.follow();
+    }
+    let known = model.place.events < model.reports.len() || model.place == Place::after(model.len());
+    if known && let Some(action) = model.wanted.take() {
+        debug_assert_eq!(action, Action::NextStage);
+        super::act(model, action);
+    } else if model.reports.len() < model.len() {
+        model.ask(Ask::Learn);
+    }
+}

@@ -1,0 +1,113 @@
+//! What the screen asks of the worker, and what the worker tells it. Plain data, so that a test can play either side.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use crate::canvas::frame::Orbit;
+use crate::report::{EventReport, Finding, StateReport, Stop};
+use crate::tui::model::Place;
+use crate::tui::shot::{Picture, Shot};
+
+/// Something to do.
+#[derive(Clone, Debug)]
+pub(in crate::tui) enum Ask {
+    /// Open a recording or a script.
+    Open(PathBuf),
+    /// Go to a place, and run what has not run yet on the way.
+    Go(Place),
+    /// Run until one of these holds, or to the end.
+    Run(Vec<Stop>),
+    /// Run what has not run yet, while nothing else is wanted, and come back.
+    Learn,
+    /// Take a picture of where the worker is. Only the newest is taken.
+    Shoot(Box<Shot>),
+    /// Look at the invariants of the whole state, as it is now.
+    Check,
+    /// Stop what is being done, if anything is.
+    Cancel,
+}
+
+impl Ask {
+    /// Whether it comes before pictures, and before what nobody waits for.
+    pub(in crate::tui) fn is_urgent(&self) -> bool {
+        !matches!(self, Self::Shoot(_) | Self::Learn)
+    }
+
+    /// Whether it puts an end to what is being done.
+    pub(in crate::tui) fn interrupts(&self) -> bool {
+        !matches!(self, Self::Shoot(_) | Self::Check | Self::Learn)
+    }
+}
+
+/// What is known of a recording once it is open.
+#[derive(Clone, Debug)]
+pub(in crate::tui) struct Opened {
+    /// Its file.
+    pub(in crate::tui) path: Option<PathBuf>,
+    /// The engine's name.
+    pub(in crate::tui) engine: String,
+    /// The engine's stages: short name and title.
+    pub(in crate::tui) stages: Vec<(String, String)>,
+    /// The modes that can be chosen by hand.
+    pub(in crate::tui) modes: Vec<String>,
+    /// The events as they stand in a script.
+    pub(in crate::tui) lines: Vec<String>,
+    /// What it was recorded on.
+    pub(in crate::tui) scene: String,
+    /// Width and height of the recorded view.
+    pub(in crate::tui) viewport: [u32; 2],
+    /// Who renders.
+    pub(in crate::tui) renderer: String,
+}
+
+/// Something to know.
+#[derive(Clone, Debug)]
+pub(in crate::tui) enum Told {
+    /// A recording is open, and stands before its first event.
+    Opened(Box<Opened>),
+    /// An event ran for the first time.
+    Report(Arc<EventReport>),
+    /// The whole state after the last event, when that was reached for the first time.
+    End(Box<StateReport>),
+    /// The first broken invariant.
+    Finding(Box<Finding>),
+    /// The worker is at a place.
+    At(Box<Standing>),
+    /// How far it is with what it does.
+    Progress {
+        /** What it does. */
+        what: &'static str,
+        /** How much of it is done. */
+        done: usize,
+        /** Of how much. */
+        of: usize,
+    },
+    /// It is done with what it was asked, or was stopped.
+    Idle {
+        /** Whether that was something urgent. */
+        urgent: bool,
+    },
+    /// The picture that was asked for.
+    Picture(Box<Picture>),
+    /// The invariants of the whole state.
+    Checked(Box<StateReport>),
+    /// A run stopped at an event, for this reason.
+    Stopped(String),
+    /// Something went wrong: what, and why.
+    Failed(String),
+}
+
+/// Where the worker is, and what there is.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::tui) struct Standing {
+    /// The place.
+    pub(in crate::tui) place: Place,
+    /// The report of the event that it is within, as far as it has run.
+    pub(in crate::tui) within: Option<Arc<EventReport>>,
+    /// What the state is made of, by name.
+    pub(in crate::tui) sizes: Vec<(&'static str, u64)>,
+    /// Where the recording looks from.
+    pub(in crate::tui) orbit: Option<Orbit>,
+    /// Bytes that are kept for seeking.
+    pub(in crate::tui) kept_bytes: usize,
+}

@@ -1,0 +1,258 @@
+//! The worker's desk: the recording that is open, and how each thing that is asked is done.
+//!
+//! The desk knows no thread. It is told of things to do one by one, and asks its [`Line`] whether to go on; so a test can work through it step
+//! by step, and the screen's own thread never waits for a cut or a picture.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::ask::{Ask, Opened, Standing, Told};
+use super::camera;
+use crate::canvas::Studio;
+use crate::render::{self, Choice};
+use crate::replay::{Case, Options, Replay};
+use crate::report::{EventReport, Stop};
+use crate::tui::model::Place;
+use crate::tui::shot::{Picture, Shot};
+
+/// The way back to the screen.
+pub(in crate::tui) trait Line {
+    /// Tells the screen something.
+    fn tell(&mut self, told: Told);
+    /// Whether something else is wanted by now.
+    fn is_interrupted(&mut self) -> bool;
+    /// Whether anything at all is wanted by now.
+    fn is_wanted(&mut self) -> bool;
+}
+
+/// What is open.
+struct Open {
+    case: Case,
+    replay: Box<dyn Replay>,
+    place: Place,
+    /// The report of the event that is held, as far as it ran.
+    within: Option<Arc<EventReport>>,
+    /// How many events' reports were told.
+    told: usize,
+    found: bool,
+    ended: bool,
+}
+
+/// See the module.
+pub(in crate::tui) struct Desk {
+    choice: Choice,
+    budget_bytes: usize,
+    studio: Option<Box<dyn Studio>>,
+    open: Option<Open>,
+}
+
+impl Desk {
+    /// A desk with nothing on it. The renderer is opened with the first recording.
+    pub(in crate::tui) fn new(choice: Choice, budget_bytes: usize) -> Self {
+        Self { choice, budget_bytes, studio: None, open: None }
+    }
+
+    /// Does one thing.
+    pub(in crate::tui) fn handle(&mut self, ask: Ask, line: &mut dyn Line) {
+        let urgent = ask.is_urgent();
+        if let Err(why) = self.try_to(ask, line) {
+            line.tell(Told::Failed(why));
+        }
+        line.tell(Told::Idle { urgent });
+    }
+
+    fn try_to(&mut self, ask: Ask, line: &mut dyn Line) -> Result<(), String> {
+        match ask {
+            Ask::Open(path) => self.open_file(&path, line),
+            Ask::Go(place) => self.opened()?.go(place, line),
+            Ask::Run(stops) => self.opened()?.run(&stops, line),
+            Ask::Learn => self.opened()?.learn(line),
+            Ask::Shoot(shot) => self.shoot(*shot, line),
+            Ask::Check => {
+                let state = self.opened()?.replay.state();
+                line.tell(Told::Checked(Box::new(state)));
+                Ok(())
+            }
+            Ask::Cancel => Ok(()),
+        }
+    }
+
+    fn opened(&mut self) -> Result<&mut Open, String> {
+        self.open.as_mut().ok_or_else(|| "no recording is open".into())
+    }
+
+    fn open_file(&mut self, path: &Path, line: &mut dyn Line) -> Result<(), String> {
+        line.tell(Told::Progress { what: "opening", done: 0, of: 0 });
+        let case = Case::open(path).map_err(|error| error.to_string())?;
+        self.show(case, Some(path), line)
+    }
+
+    /// Puts a recording on the desk.
+    fn show(&mut self, case: Case, path: Option<&Path>, line: &mut dyn Line) -> Result<(), String> {
+        let studio = match self.studio.take() {
+            Some(studio) => studio,
+            None => render::studio(self.choice).map_err(|error| error.to_string())?,
+        };
+        let studio = self.studio.insert(studio);
+        let options = Options { pictures: true, budget_bytes: self.budget_bytes, ..Options::default() };
+        let replay = case.replay(&case.recording, options, Some(studio.as_ref()));
+        let replay = replay.map_err(|error| error.to_string())?;
+        let recording = &case.recording;
+        line.tell(Told::Opened(Box::new(Opened {
+            path: path.map(Path::to_owned),
+            engine: replay.engine().into(),
+            stages: replay.stages().into_iter().map(|(id, title)| (id.into(), title.into())).collect(),
+            modes: recording.modes().iter().map(|mode| (*mode).into()).collect(),
+            lines: recording.event_lines(),
+            scene: recording.scene().to_string(),
+            viewport: recording.viewport(),
+            renderer: studio.adapter().to_string(),
+        })));
+        let open =
+            Open { case, replay, place: Place::START, within: None, told: 0, found: false, ended: false };
+        self.open.insert(open).stand(line);
+        Ok(())
+    }
+
+    fn shoot(&mut self, shot: Shot, line: &mut dyn Line) -> Result<(), String> {
+        let open = self.opened()?;
+        let clock = Instant::now();
+        let shown = open.shown();
+        let image = camera::take(open.replay.as_mut(), shown, &shot)?;
+        let ms = clock.elapsed().as_secs_f64() * 1e3;
+        let picture = Picture { shot, place: open.place, image, ms };
+        line.tell(Told::Picture(Box::new(picture)));
+        Ok(())
+    }
+}
+
+impl Open {
+    /// The report of the event that ran last, or that is held.
+    fn shown(&self) -> Option<EventReport> {
+        let held = self.within.as_deref();
+        held.or_else(|| self.replay.event(self.place.events.checked_sub(1)?)).cloned()
+    }
+
+    fn go(&mut self, place: Place, line: &mut dyn Line) -> Result<(), String> {
+        let place = Place { events: place.events.min(self.replay.len()), ..place };
+        let arrived = self.seek(place.events, line);
+        match place.stage {
+            Some(stage) if arrived && place.events < self.replay.len() => self.enter(place.events, stage)?,
+            _ => {}
+        }
+        self.stand(line);
+        Ok(())
+    }
+
+    /// Goes to before an event, telling how far it is and what ran. False when it was interrupted.
+    fn seek(&mut self, event: usize, line: &mut dyn Line) -> bool {
+        self.within = None;
+        // Reports come out of the session one by one, so what has not run yet is stepped.
+        let known = self.told.min(event);
+        let from = self.replay.position();
+        let of = from.abs_diff(event);
+        let arrived = self.replay.seek_while(known, &mut |at| {
+            line.tell(Told::Progress { what: "seeking", done: from.abs_diff(at), of });
+            !line.is_interrupted()
+        });
+        let arrived = arrived && self.run_to(event, line);
+        self.place = Place { events: self.replay.position(), stage: None };
+        arrived
+    }
+
+    /// Runs up to an event. False when it was interrupted.
+    fn run_to(&mut self, event: usize, line: &mut dyn Line) -> bool {
+        while self.replay.position() < event {
+            if self.replay.step().is_none() {
+                break;
+            }
+            self.tell_news(line);
+            if self.replay.position() < event {
+                let (done, of) = (self.replay.position(), event);
+                line.tell(Told::Progress { what: "running", done, of });
+                if line.is_interrupted() {
+                    return false;
+                }
+            }
+        }
+        true
+    }
+
+    /// Stops after one of the stages that an event has, counted in the rows of its report.
+    fn enter(&mut self, event: usize, stage: usize) -> Result<(), String> {
+        let id =
+            self.replay.event(event).and_then(|report| report.stages.get(stage)).map(|row| row.id.clone());
+        let Some(id) = id else { return Ok(()) };
+        self.within = Some(Arc::new(self.replay.hold(event, &id)?));
+        self.place = Place { events: event, stage: Some(stage) };
+        Ok(())
+    }
+
+    /// Runs what has not run yet, for as long as nobody wants anything else, and comes back. What is held stays held.
+    fn learn(&mut self, line: &mut dyn Line) -> Result<(), String> {
+        let (place, end) = (self.place, self.replay.len());
+        if self.within.is_some() || self.told == end {
+            return Ok(());
+        }
+        self.replay.seek(self.told);
+        while !line.is_wanted() && self.replay.step().is_some() {
+            self.tell_news(line);
+            line.tell(Told::Progress { what: "running ahead", done: self.told, of: end });
+        }
+        self.replay.seek(place.events);
+        Ok(())
+    }
+
+    fn run(&mut self, stops: &[Stop], line: &mut dyn Line) -> Result<(), String> {
+        self.within = None;
+        let end = self.replay.len();
+        loop {
+            if self.replay.step().is_none() {
+                line.tell(Told::Stopped("the end".into()));
+                break;
+            }
+            self.tell_news(line);
+            let at = self.replay.position();
+            self.place = Place { events: at, stage: None };
+            let report = self.replay.event(at - 1);
+            if let Some(stop) = report.and_then(|report| stops.iter().find(|stop| stop.hits(report))) {
+                line.tell(Told::Stopped(stop.to_string()));
+                break;
+            }
+            line.tell(Told::Progress { what: "running", done: at, of: end });
+            if line.is_interrupted() {
+                break;
+            }
+        }
+        self.stand(line);
+        Ok(())
+    }
+
+    /// Tells what ran for the first time.
+    fn tell_news(&mut self, line: &mut dyn Line) {
+        while let Some(report) = self.replay.event(self.told) {
+            line.tell(Told::Report(Arc::new(report.clone())));
+            self.told += 1;
+        }
+        if let (false, Some(finding)) = (self.found, self.replay.finding()) {
+            line.tell(Told::Finding(Box::new(finding.clone())));
+            self.found = true;
+        }
+        if !self.ended && self.replay.position() == self.replay.len() {
+            self.ended = true;
+            self.replay.end().into_iter().for_each(|end| line.tell(Told::End(Box::new(end.clone()))));
+        }
+    }
+
+    /// Tells where it is.
+    fn stand(&mut self, line: &mut dyn Line) {
+        line.tell(Told::At(Box::new(Standing {
+            place: self.place,
+            within: self.within.clone(),
+            sizes: self.replay.sizes(),
+            orbit: self.replay.orbit(),
+            kept_bytes: self.replay.kept_bytes(),
+        })));
+    }
+}
