@@ -1,14 +1,15 @@
 //! What the user typed: the one source of the parser, the help, the completions and the man page.
 
-use std::ffi::OsString;
+mod values;
+
 use std::path::PathBuf;
-use std::str::FromStr;
 
 use clap::{Parser, Subcommand, ValueEnum, ValueHint};
 
 use crate::replay::Plant;
 use crate::report::Stop;
 use crate::verify::Shard;
+pub(super) use values::{Setting, Size, Target, Until};
 
 const AFTER: &str = "Exit status: 0 when all is verified, 1 when something diverged or an invariant broke, 2 for bad input or when \
 it could not run.\n\nREC is a recording (.lancet) or its script (.json). `--json -` writes to standard output. NO_COLOR is honoured.";
@@ -66,19 +67,6 @@ pub(super) struct Pixels {
     /// Skip nothing, whether a scene needs it or not: the answer is the same
     #[arg(long)]
     pub(super) no_skip: bool,
-}
-
-/// Where an answer goes: a file, or `-` for standard output.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Target {
-    Stdout,
-    File(PathBuf),
-}
-
-impl From<OsString> for Target {
-    fn from(typed: OsString) -> Self {
-        if typed == "-" { Self::Stdout } else { Self::File(typed.into()) }
-    }
 }
 
 /// Replay recordings, look at every invariant, and compare them with their goldens
@@ -198,6 +186,8 @@ pub(super) struct Replay {
     /// Write a picture of the end, as PNG
     #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
     pub(super) frame: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) viewpoint: Viewpoint,
     /// Draw over it: the mesh's edges (`wire`), or whatever the last cut's report has to show, by its name or by the first word of it: `line`,
     /// `picks`, `gutter`, `painted`, `configurations`
     #[arg(long, value_name = "NAME", value_delimiter = ',', requires = "frame")]
@@ -207,6 +197,20 @@ pub(super) struct Replay {
     pub(super) map: Option<Map>,
     #[command(flatten)]
     pub(super) pixels: Pixels,
+}
+
+/// Where a picture is taken from, rather than from where the recording looks.
+#[derive(Clone, Copy, Debug, Default, clap::Args)]
+pub(super) struct Viewpoint {
+    /// Look from another angle around the vertical axis, radians
+    #[arg(long, value_name = "A", allow_negative_numbers = true, requires = "frame", conflicts_with = "map")]
+    pub(super) azimuth: Option<f64>,
+    /// Look from another angle from straight up, radians, 0 to π
+    #[arg(long, value_name = "Z", allow_negative_numbers = true, requires = "frame", conflicts_with = "map")]
+    pub(super) zenith: Option<f64>,
+    /// Look from another distance to the target, model units
+    #[arg(long, value_name = "D", allow_negative_numbers = true, requires = "frame", conflicts_with = "map")]
+    pub(super) distance: Option<f64>,
 }
 
 /// Step through a recording in the terminal, and record new ones
@@ -270,53 +274,6 @@ pub(super) struct Render {
     pub(super) pixels: Pixels,
     #[command(flatten)]
     pub(super) json: Json,
-}
-
-/// Width and height in pixels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Size(pub(super) [u32; 2]);
-
-impl FromStr for Size {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let sides = text.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
-        sides.map(Self).ok_or_else(|| format!("`{text}` is not WxH, such as 1280x720"))
-    }
-}
-
-/// A setting by its name, and its value as JSON.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Setting {
-    pub(super) name: String,
-    pub(super) value: serde_json::Value,
-}
-
-impl FromStr for Setting {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let wrong = || format!("`{text}` is not NAME=VALUE, such as shadows=false");
-        let (name, value) = text.split_once('=').ok_or_else(wrong)?;
-        Ok(Self { name: name.into(), value: serde_json::from_str(value).map_err(|_| wrong())? })
-    }
-}
-
-/// Where a replay stops.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Until {
-    pub(super) event: usize,
-    pub(super) stage: Option<String>,
-}
-
-impl FromStr for Until {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let (event, stage) = text.split_once('.').map_or((text, None), |(event, stage)| (event, Some(stage)));
-        let event = event.parse().map_err(|_| "not EVENT or EVENT.STAGE, such as 4 or 4.MC".to_owned())?;
-        Ok(Self { event, stage: stage.map(str::to_owned) })
-    }
 }
 
 /// Make a recording from its script

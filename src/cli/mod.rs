@@ -19,6 +19,7 @@ mod json;
 mod man;
 mod measure;
 mod merge;
+mod orbit;
 mod pack;
 mod picture;
 mod pixels;

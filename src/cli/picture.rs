@@ -1,9 +1,8 @@
 //! The picture of a replay's end: the frame with what was asked for drawn over it, or a map.
 
 use super::args::Replay;
-
 use super::failure::Failure;
-use super::pixels;
+use super::{orbit, pixels};
 use crate::canvas::image::Image;
 use crate::render::overlay::{self, Drawing};
 use crate::replay::{self, Shot};
@@ -23,7 +22,8 @@ pub(super) fn of(
     }
     let last_cut = report.events.iter().rev().find(|event| event.cut);
     let drawings = drawings(&typed.overlay, last_cut.map_or(&[], |event| &event.overlays))?;
-    let (mut frame, view) = replay.shoot(&Shot::default()).ok_or_else(|| pixels::missing(replay))?;
+    let shot = Shot { orbit: orbit::of(typed.viewpoint, replay)?, limit: None };
+    let (mut frame, view) = replay.shoot(&shot).ok_or_else(|| pixels::missing(replay))?;
     if let Some(mesh) = replay.mesh() {
         overlay::draw(&mut frame.image, &view, mesh, &drawings);
     }

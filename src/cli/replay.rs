@@ -2,7 +2,7 @@
 
 use super::args::{Replay, Target, Until};
 use super::failure::Failure;
-use super::{Console, Done, Status, json, picture, pixels, place, show};
+use super::{Console, Done, Status, json, orbit, picture, pixels, place, show};
 use crate::assets;
 use crate::canvas::Studio;
 use crate::replay::{self, Case, Options};
@@ -39,6 +39,7 @@ pub(super) fn run(typed: &Replay, console: &mut Console<'_>) -> Done {
 
 /// What cannot be meant is refused before anything is replayed.
 fn require_possible(typed: &Replay) -> Result<(), Failure> {
+    orbit::require_possible(typed.viewpoint)?;
     let files = [&typed.json, &typed.trace].into_iter().flatten().filter_map(|t| match t {
         Target::File(path) => Some(path),
         Target::Stdout => None,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::digest;
 use super::pixels::Pixels;
-use super::stages::{Pipeline, Planting};
+use super::stages::{Pipeline, Planting, require_row};
 use super::timeline::{Change, Keyframe, Stacks, Step, Timeline};
 use super::{CHECKPOINT_SIZE, CheckpointFrame, Options, Replay, Shot};
 use crate::canvas::frame::{Frame, Orbit, View};
@@ -327,17 +327,6 @@ impl<E: Engine> Session<E> {
             Err(format!("there is no stage `{stage}`: {} has {}", E::NAME, ids.join(", ")))
         }
     }
-}
-
-/// An error says that an event went through no such stage.
-fn require_row(report: &EventReport, stage: &str) -> Result<(), String> {
-    let ids: Vec<&str> = report.stages.iter().map(|row| row.id.as_str()).collect();
-    if ids.contains(&stage) {
-        return Ok(());
-    }
-    let of = report.reason.as_ref().map_or_else(String::new, |reason| format!(", rejected: {reason}"));
-    let has = if ids.is_empty() { "none".into() } else { ids.join(", ") };
-    Err(format!("event {} ({}{of}) has no stage `{stage}`; it has {has}", report.index, report.kind))
 }
 
 fn settle<E: Engine>(done: Option<Change<E>>, report: &mut EventReport, otherwise: Rejection) -> Change<E> {

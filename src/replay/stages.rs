@@ -158,3 +158,14 @@ impl<'a, E: Engine> Pipeline<'a, E> {
         (report.counters, report.tables, report.overlays) = (shown.counters, shown.tables, shown.overlays);
     }
 }
+
+/// An error says that an event went through no such stage.
+pub(super) fn require_row(report: &EventReport, stage: &str) -> Result<(), String> {
+    let ids: Vec<&str> = report.stages.iter().map(|row| row.id.as_str()).collect();
+    if ids.contains(&stage) {
+        return Ok(());
+    }
+    let of = report.reason.as_ref().map_or_else(String::new, |reason| format!(", rejected: {reason}"));
+    let has = if ids.is_empty() { "none".into() } else { ids.join(", ") };
+    Err(format!("event {} ({}{of}) has no stage `{stage}`; it has {has}", report.index, report.kind))
+}

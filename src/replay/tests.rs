@@ -199,6 +199,16 @@ fn holding_runs_some_stages_and_stays_until_it_is_let_go() {
 }
 
 #[test]
+fn a_stage_that_an_event_has_not_holds_nothing() {
+    let mut session = session(&[Click(1), Add(99, 3.0), Add(2, 3.0)]);
+    let error = |held: Result<EventReport, String>| held.expect_err("there is no such place");
+    assert_eq!(error(session.hold(2, "NO")), "event 2 (add) has no stage `NO`; it has AD, HV");
+    assert_eq!(session.engine_state().numbers, [0.0; 8], "it was let go");
+    assert_eq!(error(session.hold(0, "AD")), "event 0 (click) has no stage `AD`; it has none");
+    assert_eq!(session.hold(1, "HV").map(|report| report.outcome), Ok(Outcome::Rejected));
+}
+
+#[test]
 fn what_is_appended_runs_as_if_it_had_been_there_and_can_be_dropped() {
     let script = |text: &str| Input::Script(text.into());
     let mut live = session(&[Click(1), Add(2, 3.0)]);

@@ -141,6 +141,26 @@ fn a_frame_shows_whatever_the_report_has_to_show() {
 }
 
 #[test]
+fn a_frame_is_taken_from_elsewhere() {
+    let (folder, script) = square();
+    let at = folder.path().join("frame.png").to_str().unwrap().to_owned();
+    let replay = ["replay", &script, "--renderer", "reference", "--frame", &at];
+    let frame = |from: &[&str]| {
+        answer(&[&replay[..], from].concat());
+        std::fs::read(&at).unwrap()
+    };
+    let (front, nearer, above) = (frame(&[]), frame(&["--distance", "9"]), frame(&["--zenith", "1.2"]));
+    let around = frame(&["--azimuth", "-0.4"]);
+    assert!(front != nearer && front != above && front != around && nearer != above);
+    assert_eq!(frame(&["--azimuth", "0"]), front, "what is not typed is as it was recorded");
+    let wrong = |from: [&str; 2]| complaint(&[&replay[..], &from].concat());
+    assert!(wrong(["--zenith", "3.2"]).contains("--zenith: 3.2 is not between 0 and π"));
+    assert!(wrong(["--distance", "-1"]).contains("--distance: -1 is not a positive number"));
+    assert!(wrong(["--azimuth", "nan"]).contains("--azimuth: NaN is not a number"));
+    assert!(complaint(&["replay", &script, "--zenith", "1"]).contains("--frame"));
+}
+
+#[test]
 fn a_replay_writes_its_mesh_and_its_trace() {
     let (folder, script) = square();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
