@@ -16,11 +16,10 @@
 //! | [`verify`] | goldens and their pictures: compare, bless, shard and merge, pages |
 //! | [`measure`] | time against error, stability, scaling, the thesis's tables |
 //! | [`cli`] | the command line |
+//! | [`tui`] | the terminal's screen |
 //!
 //! Data flows one way: recording → replay → engine → report → front end. `geometry` and `mesh` lie under the engines. `tests/layers.rs`
 //! keeps it: it parses every path, and a room that it does not know fails.
-//!
-//! A room to come: `tui`, beside `cli`.
 //!
 //! # Rules of the house
 //!
@@ -63,4 +62,6 @@ pub mod recording;
 pub mod render;
 pub mod replay;
 pub mod report;
+#[cfg(feature = "tui")]
+pub mod tui;
 pub mod verify;
