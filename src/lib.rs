@@ -17,6 +17,7 @@
 //! | [`measure`] | time against error, stability, scaling, the thesis's tables |
 //! | [`tui`] | the terminal: the same reports, to step through |
 //! | [`cli`] | the command line |
+//! | [`tui`] | the terminal's screen |
 //!
 //! Data flows one way: recording → replay → engine → report → front end. `geometry` and `mesh` lie under the engines. `tests/layers.rs`
 //! keeps it: it parses every path, and a room that it does not know fails.

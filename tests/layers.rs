@@ -83,6 +83,11 @@ const ROOMS: &[Room] = &[
         may_name: &["assets", "canvas", "measure", "recording", "render", "replay", "report", "verify"],
         why: "a front end shows reports: it computes nothing, and knows no engine",
     },
+    Room {
+        name: "tui",
+        may_name: &["assets", "canvas", "mesh", "recording", "render", "replay", "report", "verify"],
+        why: "a front end shows reports: it computes nothing, and knows no engine",
+    },
 ];
 
 /// Something from outside that only some places may name.
@@ -106,14 +111,22 @@ const BANS: &[Ban] = &[
     Ban { path: "std::env::var", but: &[], why: "an environment must not decide what a run does" },
     Ban {
         path: "std::time",
-        but: &["replay", "render", "verify", "measure", "cli"],
+        but: &["replay", "render", "verify", "measure", "cli", "tui"],
         why: "only what times a run, or a pass of a frame, knows a clock",
     },
     Ban { path: "std::time::SystemTime", but: &[], why: "a run does not depend on its date" },
     Ban {
         path: "std::thread",
-        but: &["verify/suite.rs", "cli/verify.rs", "cli/doctor.rs", "measure", "tui/terminal/events.rs"],
-        why: "whole recordings run side by side, and keys are waited for; within a run there is one order",
+        but: &[
+            "verify/suite.rs",
+            "cli/verify.rs",
+            "cli/doctor.rs",
+            "measure",
+            "tui/terminal/events.rs",
+            "tui/image/encoder.rs",
+            "tui/worker/mod.rs",
+        ],
+        why: "whole recordings run side by side, and beside a screen; within a run there is one order",
     },
     Ban {
         path: "std::io::stdin",
@@ -129,6 +142,9 @@ const BANS: &[Ban] = &[
     Ban { path: "std::collections::HashSet", but: &[], why: "its order differs from run to run" },
     Ban { path: "std::collections::hash_map::HashMap", but: &[], why: "its order differs from run to run" },
     Ban { path: "gltf", but: &["assets"], why: "formats of files are for assets" },
+    Ban { path: "ratatui", but: &["tui"], why: "terminals are for the front end" },
+    Ban { path: "ratatui_image", but: &["tui"], why: "terminals are for the front end" },
+    Ban { path: "crossterm", but: &["tui"], why: "terminals are for the front end" },
     Ban { path: "clap", but: &["cli"], why: "one parser, in the front end" },
     Ban { path: "anstream", but: &["cli"], why: "colour is for the front end" },
     Ban { path: "anstyle", but: &["cli"], why: "colour is for the front end" },

@@ -1,7 +1,6 @@
 //! What a mesh is: counts, topology, sizes. For `lancet check`, and for people who wonder why a cut was rejected.
 //!
-//! Genus: a closed surface of c parts has χ = 2 c − 2 g; with b boundary loops, χ + b takes the place of χ. A **chart** is a set of faces
-//! joined over edges at which they share their vertices; a **seam edge** has two faces, but not the same vertices on both sides.
+//! Genus: a closed surface of c parts has χ = 2 c − 2 g; with b boundary loops, χ + b takes the place of χ.
 //! A **needle** has a longest side over a thousand times its height.
 
 use std::io::{self, Write};
@@ -9,8 +8,7 @@ use std::io::{self, Write};
 use serde::{Deserialize, Serialize};
 
 use super::Note;
-use super::links::Union;
-use crate::mesh::{Edge, FaceId, Mesh, NodeId};
+use crate::mesh::{Edge, FaceId, Mesh, NodeId, Union};
 
 /// Longest side over height from which a face counts as a needle.
 const NEEDLE: f64 = 1000.0;
@@ -68,9 +66,9 @@ pub struct MeshFacts {
 pub fn inspect(mesh: &Mesh) -> MeshFacts {
     let boundary: Vec<&Edge> = mesh.edges().iter().filter(|e| e.is_boundary()).collect();
     let euler = mesh.node_count() as i64 - mesh.edge_count() as i64 + mesh.face_count() as i64;
-    let (components, boundary_loops) = (parts(mesh, |_| true), loops(mesh, &boundary));
+    let (components, boundary_loops) = (count(&mesh.parts(|_| true)), loops(mesh, &boundary));
     let textured = mesh.is_textured();
-    let seams = |e: &&Edge| textured && !e.is_boundary() && is_seam(mesh, e);
+    let seams = |e: &&Edge| textured && mesh.is_seam(e);
     let sizes = Sizes::of(mesh);
     MeshFacts {
         faces: mesh.face_count(),
@@ -86,7 +84,7 @@ pub fn inspect(mesh: &Mesh) -> MeshFacts {
         euler,
         genus: components as i64 - (euler + boundary_loops as i64) / 2,
         textured,
-        charts: if textured { parts(mesh, |e| !is_seam(mesh, e)) } else { 0 },
+        charts: if textured { count(&mesh.charts()) } else { 0 },
         seam_edges: mesh.edges().iter().filter(seams).count(),
         area: sizes.area,
         volume: boundary.is_empty().then_some(sizes.volume),
@@ -98,13 +96,9 @@ pub fn inspect(mesh: &Mesh) -> MeshFacts {
     }
 }
 
-/// How many parts the faces form when joined over the edges that `joins` says yes to.
-fn parts(mesh: &Mesh, joins: impl Fn(&Edge) -> bool) -> usize {
-    let mut union = Union::new(mesh.face_count());
-    for edge in mesh.edges().iter().filter(|e| !e.is_boundary() && joins(e)) {
-        union.join(edge.faces[0].0, edge.faces[1].0);
-    }
-    union.names().iter().enumerate().filter(|(i, name)| *i == **name as usize).count()
+/// How many parts have these names, each that of its lowest member.
+fn count(names: &[u32]) -> usize {
+    names.iter().enumerate().filter(|(i, name)| *i == **name as usize).count()
 }
 
 fn loops(mesh: &Mesh, boundary: &[&Edge]) -> usize {
@@ -114,15 +108,6 @@ fn loops(mesh: &Mesh, boundary: &[&Edge]) -> usize {
     names.sort_unstable();
     names.dedup();
     names.len()
-}
-
-/// Whether the two faces of an edge have different vertices at one of its ends.
-fn is_seam(mesh: &Mesh, edge: &Edge) -> bool {
-    let vertex = |face: FaceId, node: NodeId| {
-        let face = mesh.face(face);
-        face.corner(node).map(|c| face.vertices[c])
-    };
-    edge.nodes.iter().any(|&n| vertex(edge.faces[0], n) != vertex(edge.faces[1], n))
 }
 
 fn has_whole_fans(mesh: &Mesh) -> bool {

@@ -1,4 +1,4 @@
-//! Half-edges in order, and sets that grow together: what welding and repair are made of.
+//! Half-edges in order: what welding and repair are made of.
 
 /// One side of a face, named so that both sides of an edge have the same key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -40,33 +40,4 @@ pub(super) fn half_edges(faces: &[[u32; 3]], names: &[u32]) -> Vec<HalfEdge> {
 /// The half-edges edge by edge.
 pub(super) fn grouped(sorted: &[HalfEdge]) -> impl Iterator<Item = &[HalfEdge]> {
     sorted.chunk_by(|a, b| a.key == b.key)
-}
-
-/// Disjoint sets; a set is named by its lowest member.
-#[derive(Debug)]
-pub(super) struct Union(Vec<u32>);
-
-impl Union {
-    pub(super) fn new(len: usize) -> Self {
-        Self((0..len as u32).collect())
-    }
-
-    pub(super) fn find(&mut self, mut at: u32) -> u32 {
-        while self.0[at as usize] != at {
-            let above = self.0[self.0[at as usize] as usize];
-            self.0[at as usize] = above;
-            at = above;
-        }
-        at
-    }
-
-    pub(super) fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.find(a), self.find(b));
-        self.0[a.max(b) as usize] = a.min(b);
-    }
-
-    /// The name of each member.
-    pub(super) fn names(mut self) -> Vec<u32> {
-        (0..self.0.len() as u32).map(|i| self.find(i)).collect()
-    }
 }

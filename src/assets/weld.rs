@@ -16,8 +16,9 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 
 use super::Notes;
-use super::links::{HalfEdge, Union, grouped, half_edges};
+use super::links::{HalfEdge, grouped, half_edges};
 use super::soup::Soup;
+use crate::mesh::Union;
 
 /// Whose connectivity counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

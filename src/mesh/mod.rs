@@ -15,6 +15,7 @@
 //! `check` says so if it is not. Not promised: that it does not intersect itself.
 
 pub mod build;
+mod charts;
 pub mod check;
 mod column;
 mod fan;
@@ -26,6 +27,7 @@ pub mod refine;
 use glam::{DVec3, Vec2, Vec3};
 
 pub use build::{BuildError, IndexedMesh};
+pub use charts::Union;
 use column::Column;
 pub use fan::Fan;
 pub use ids::{EdgeId, FaceId, NodeId, VertexId};

@@ -16,6 +16,7 @@ mod compare;
 pub mod config;
 pub mod environment;
 mod events;
+pub mod image;
 pub mod key;
 mod keys;
 pub mod list;

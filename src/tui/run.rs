@@ -1,16 +1,22 @@
 //! The loop: what was typed and told changes the model, the model asks for things, and what changed is drawn.
+//!
+//! One channel carries keys and finished work alike, so nobody polls: it wakes for a key, a word of the worker's, an encoded picture, the next beat
+//! while playing, and now and then for signals.
 
 use std::io;
 use std::path::PathBuf;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
+
+use crossterm::event::Event;
 
 use super::config::Config;
 use super::environment::Environment;
 use super::keys::Keys;
 use super::model::{Effect, Model};
-use super::terminal::Terminal;
+use super::terminal::{self, Terminal};
 use super::theme::Theme;
-use super::worker::{Ask, Desk, Worker};
+use super::worker::{Ask, Desk, Told, Worker};
 use super::{events, update, view};
 use crate::render::Choice;
 
@@ -27,8 +33,14 @@ pub struct Start {
     pub config: Config,
 }
 
-/// How long an event is waited for while the worker is at work, and while it is not.
-const WAIT: [Duration; 2] = [Duration::from_millis(8), Duration::from_millis(100)];
+/// Something that happened.
+enum News {
+    Typed(io::Result<Event>),
+    Told(Told),
+}
+
+/// How long nothing may happen before signals are looked for.
+const PATIENCE: Duration = Duration::from_millis(200);
 
 /// Runs it until it is left. The terminal has to be there.
 pub fn run(start: Start) -> io::Result<()> {
@@ -43,6 +55,7 @@ struct App {
     model: Model,
     theme: Theme,
     keys: Keys,
+    news: Receiver<News>,
     worker: Worker,
     terminal: Terminal,
     /// When the last event was played.
@@ -53,15 +66,24 @@ struct App {
 
 impl App {
     fn new(start: Start) -> io::Result<Self> {
-        let environment = Environment::read();
-        let theme = Theme::chosen(&start.config.theme, &environment);
+        let theme = Theme::chosen(&start.config.theme, &Environment::read());
         let keys = Keys::new(&start.config.keys);
-        let terminal = Terminal::take(start.config.mouse)?;
+        let mut terminal = Terminal::take(start.config.mouse)?;
         let size = terminal.size()?;
         let mut model = Model { size: [size.width, size.height], ..Model::default() };
-        let worker = Worker::start(Desk::new(start.renderer, start.budget_bytes));
         start.recording.into_iter().for_each(|path| model.ask(Ask::Open(path)));
-        Ok(Self { model, theme, keys, worker, terminal, beat: Instant::now(), changed: true })
+        // The first frame comes before anything that takes time.
+        terminal.draw(|frame| view::draw(&model, &theme, &keys, frame.buffer_mut()))?;
+        let (send, news) = channel();
+        let typed = send.clone();
+        terminal::listen(move |event| typed.send(News::Typed(event)).is_ok())?;
+        let (choice, budget) = (start.renderer, start.budget_bytes);
+        let worker = Worker::start(
+            move || Desk::new(choice, budget),
+            // A screen that is gone is noticed when the next thing to do is looked for.
+            move |told| drop(send.send(News::Told(told))),
+        )?;
+        Ok(Self { model, theme, keys, news, worker, terminal, beat: Instant::now(), changed: true })
     }
 
     fn turn(&mut self) -> io::Result<()> {
@@ -94,17 +116,28 @@ impl App {
         Ok(())
     }
 
-    /// Waits a little for what is typed, then takes what was told.
+    /// Waits for something to happen, and takes all that has.
     fn listen(&mut self) -> io::Result<()> {
-        let wait = WAIT[usize::from(!self.model.is_busy() && self.model.playing.is_none())];
-        let mut waited = crossterm::event::poll(wait)?;
-        while waited {
-            self.changed |= events::take(&mut self.model, &self.keys, crossterm::event::read()?);
-            waited = crossterm::event::poll(Duration::ZERO)?;
+        let due = self.model.playing.map(|pause| pause.saturating_sub(self.beat.elapsed()));
+        let wait = due.map_or(PATIENCE, |due| due.min(PATIENCE));
+        match self.news.recv_timeout(wait) {
+            Ok(news) => self.take(news)?,
+            Err(RecvTimeoutError::Timeout) => return Ok(()),
+            Err(RecvTimeoutError::Disconnected) => self.model.done = true,
         }
-        while let Ok(told) = self.worker.told.try_recv() {
-            update::told(&mut self.model, told);
-            self.changed = true;
+        while let Ok(news) = self.news.try_recv() {
+            self.take(news)?;
+        }
+        Ok(())
+    }
+
+    fn take(&mut self, news: News) -> io::Result<()> {
+        match news {
+            News::Typed(event) => self.changed |= events::take(&mut self.model, &self.keys, event?),
+            News::Told(told) => {
+                update::told(&mut self.model, told);
+                self.changed = true;
+            }
         }
         Ok(())
     }

@@ -22,11 +22,11 @@ mod orient;
 use rustc_hash::FxHashSet;
 
 use super::error::{Fault, FaultKind};
-use super::links::{HalfEdge, Union, grouped, half_edges};
+use super::links::{HalfEdge, grouped, half_edges};
 use super::soup::Soup;
 use super::weld::{self, Rule};
 use super::{Note, Notes, exact};
-use crate::mesh::{BuildError, Mesh};
+use crate::mesh::{BuildError, Mesh, Union};
 
 /// Builds a file's mesh, repaired, with what was repaired.
 pub(super) fn build(mut soup: Soup, rule: Rule) -> Result<(Mesh, Vec<Note>), Fault> {

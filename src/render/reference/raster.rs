@@ -15,7 +15,7 @@ use rayon::prelude::*;
 
 use super::clip::{GUARD, Polygon};
 use super::lens::Lens;
-use crate::mesh::{Face, Mesh};
+use crate::mesh::{Face, FaceId, Mesh};
 use crate::render::spans::{self, Corners, PARTS, Window};
 
 /// Rows in a band, and the sides of a tile.
@@ -108,6 +108,15 @@ impl Drawing {
         };
         let parts: Vec<Vec<Triangle>> = mesh.faces().par_chunks(PART).enumerate().map(part).collect();
         Self::of(lens, parts.concat())
+    }
+
+    /// Some faces of a mesh as a lens sees them.
+    pub(crate) fn of_faces(mesh: &Mesh, lens: &Lens, faces: impl IntoIterator<Item = FaceId>) -> Self {
+        let mut triangles = Vec::new();
+        for face in faces {
+            cover(&mut triangles, face.0, mesh.triangle(face).map(|p| lens.see(p)), lens);
+        }
+        Self::of(lens, triangles)
     }
 
     fn of(lens: &Lens, triangles: Vec<Triangle>) -> Self {

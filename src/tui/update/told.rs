@@ -33,8 +33,15 @@ pub(in crate::tui) fn told(model: &mut Model, told: Told) {
             model.playing = None;
             model.say(format!("stopped: {why}"));
         }
+        Told::Broken(why) => broken(model, &why),
         Told::Failed(why) => model.complain(why),
     }
+}
+
+/// What ran stays on the screen; nothing further can be asked about it.
+fn broken(model: &mut Model, why: &str) {
+    (model.standing, model.playing, model.wanted) = (None, None, None);
+    model.complain(format!("a bug of lancet's: panicked: {why}; open the recording again to go on"));
 }
 
 fn open(model: &mut Model, opened: Opened) {

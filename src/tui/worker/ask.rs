@@ -93,6 +93,8 @@ pub(in crate::tui) enum Told {
     Checked(Box<StateReport>),
     /// A run stopped at an event, for this reason.
     Stopped(String),
+    /// The program broke one of its own assertions, and what was open is closed.
+    Broken(String),
     /// Something went wrong: what, and why.
     Failed(String),
 }

@@ -46,7 +46,7 @@ fn drawings<'a>(drawn: &'a Drawn, overlays: &'a [Overlay]) -> Vec<Drawing<'a>> {
     let mut drawings = Vec::new();
     match drawn.tint {
         Tint::None => {}
-        Tint::Charts => {}
+        Tint::Charts => drawings.push(Drawing::Charts),
         Tint::Group(at) => {
             let group = groups(overlays).get(at).copied();
             let faces = overlays.iter().filter(|o| matches!(o, Overlay::Faces { .. }));
@@ -59,6 +59,9 @@ fn drawings<'a>(drawn: &'a Drawn, overlays: &'a [Overlay]) -> Vec<Drawing<'a>> {
     if drawn.lines {
         let lines = overlays.iter().filter(|o| !matches!(o, Overlay::Faces { .. }));
         drawings.extend(lines.map(Drawing::Shown));
+    }
+    if !drawn.marked.is_empty() {
+        drawings.push(Drawing::Marked(&drawn.marked));
     }
     drawings
 }

@@ -7,7 +7,10 @@ mod ask;
 mod camera;
 mod desk;
 
+use std::any::Any;
 use std::collections::VecDeque;
+use std::io;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 
@@ -18,22 +21,31 @@ pub(in crate::tui) use desk::{Desk, Line};
 /// The screen's end.
 pub(in crate::tui) struct Worker {
     asks: Sender<Ask>,
-    /// What the worker has told.
-    pub(in crate::tui) told: Receiver<Told>,
 }
 
 impl Worker {
-    /// Starts the thread. It ends when the worker is dropped.
-    pub(in crate::tui) fn start(mut desk: Desk) -> Self {
+    /// Starts the thread, which tells what there is to know. It ends when the worker is dropped. What the program breaks one of its own
+    /// assertions at is told, and the desk is cleared: whatever was on it cannot be relied on.
+    pub(in crate::tui) fn start(
+        desk: impl Fn() -> Desk + Send + 'static,
+        tell: impl FnMut(Told) + Send + 'static,
+    ) -> io::Result<Self> {
         let (asks, asked) = channel();
-        let (tells, told) = channel();
-        thread::spawn(move || {
-            let mut line = Wire { asked, tells, waiting: VecDeque::new() };
+        let work = move || {
+            let mut line = Wire { asked, tell: Box::new(tell), waiting: VecDeque::new() };
+            let mut now = desk();
             while let Some(ask) = line.next() {
-                desk.handle(ask, &mut line);
+                let urgent = ask.is_urgent();
+                let handled = catch_unwind(AssertUnwindSafe(|| now.handle(ask, &mut line)));
+                if let Err(panic) = handled {
+                    now = desk();
+                    line.tell(Told::Broken(panic_text(panic.as_ref())));
+                    line.tell(Told::Idle { urgent });
+                }
             }
-        });
-        Self { asks, told }
+        };
+        thread::Builder::new().name(THREAD.into()).spawn(work)?;
+        Ok(Self { asks })
     }
 
     /// Asks for something. A worker that is gone has told why.
@@ -42,10 +54,19 @@ impl Worker {
     }
 }
 
+/// The thread's name.
+pub(in crate::tui) const THREAD: &str = "worker";
+
+fn panic_text(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().copied();
+    let text = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
+    text.unwrap_or("without a message").into()
+}
+
 /// The worker's end.
 struct Wire {
     asked: Receiver<Ask>,
-    tells: Sender<Told>,
+    tell: Box<dyn FnMut(Told) + Send>,
     waiting: VecDeque<Ask>,
 }
 
@@ -78,8 +99,7 @@ impl Wire {
 
 impl Line for Wire {
     fn tell(&mut self, told: Told) {
-        // A screen that is gone is noticed when the next thing to do is looked for.
-        let _ = self.tells.send(told);
+        (self.tell)(told);
     }
 
     fn is_interrupted(&mut self) -> bool {

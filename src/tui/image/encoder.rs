@@ -1,0 +1,228 @@
+//! Makes pictures ready to be drawn, on a thread of its own: a screen never waits for pixels.
+//!
+//! There is one place for what is asked for, and whoever comes later takes it over: a picture that was overtaken before its turn is never
+//! made. What is being made is finished and handed on, so that something is seen while somebody keeps turning the model. Nothing is kept but the newest.
+//!
+//! Cutting to the window, comparing and encoding all happen here. The same without a thread is [`encode`].
+
+use std::fmt;
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::thread;
+
+use ::image::{DynamicImage, RgbaImage};
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Rect, Size};
+use ratatui::widgets::Widget;
+use ratatui_image::protocol::Protocol;
+use ratatui_image::protocol::iterm2::Iterm2;
+use ratatui_image::protocol::kitty::Kitty;
+use ratatui_image::protocol::sixel::Sixel;
+
+use super::blocks::Blocks;
+use super::compare::slider;
+use super::protocol::{Kind, Medium};
+use super::window::{Fit, Window};
+use crate::canvas::image::Image;
+
+/// The picture's name in a terminal that keeps pictures: a new one takes the old one's place.
+const NAME: u32 = 0x6c_6e_63;
+
+/// A picture to show.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// Tells pictures apart: another picture has another number.
+    pub number: u64,
+    /// The picture.
+    pub image: Arc<Image>,
+    /// Another one, to be seen right of a line at a share of the pane's width.
+    pub beside: Option<(Arc<Image>, f64)>,
+    /// The part that is seen.
+    pub window: Window,
+    /// The pane, in cells.
+    pub area: Size,
+}
+
+impl Request {
+    /// A whole picture.
+    pub fn whole(number: u64, image: Arc<Image>, area: Size) -> Self {
+        Self { number, image, beside: None, window: Window::default(), area }
+    }
+
+    /// What makes it look as it does.
+    fn key(&self) -> Key {
+        Key {
+            number: self.number,
+            share: self.beside.as_ref().map(|(_, share)| *share),
+            window: self.window,
+            area: self.area,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Key {
+    number: u64,
+    share: Option<f64>,
+    window: Window,
+    area: Size,
+}
+
+/// A picture that is ready to be drawn: as a widget, at the pane's place.
+pub struct Encoded {
+    /// The request's.
+    pub number: u64,
+    /// The pane that it was made for.
+    pub area: Size,
+    /// Where the picture lies in the pane: what a click means.
+    pub fit: Fit,
+    shape: Shape,
+}
+
+enum Shape {
+    Blocks(Blocks),
+    Graphics(Protocol),
+    Nothing,
+}
+
+impl fmt::Debug for Encoded {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Encoded {} for {}", self.number, self.area)
+    }
+}
+
+impl Widget for &Encoded {
+    /// Graphics that do not fit, since the pane has become smaller, are left out until the new ones come.
+    fn render(self, area: Rect, buffer: &mut Buffer) {
+        let area = area.intersection(buffer.area);
+        match &self.shape {
+            Shape::Blocks(blocks) => blocks.render(area, buffer),
+            Shape::Graphics(graphics) => ratatui_image::Image::new(graphics).render(area, buffer),
+            Shape::Nothing => {}
+        }
+    }
+}
+
+/// Makes a picture ready. An error says why it cannot be shown this way.
+pub fn encode(medium: &Medium, request: &Request) -> Result<Encoded, String> {
+    let pane = medium.pixels(request.area);
+    let fit = request.window.fit(request.image.size, pane);
+    let shape = if medium.kind == Kind::None || request.area.area() == 0 {
+        Shape::Nothing
+    } else {
+        let left = fit.crop(&request.image);
+        let picture = match &request.beside {
+            None => left,
+            Some((image, share)) => slider(&left, &request.window.fit(image.size, pane).crop(image), *share),
+        };
+        shape(medium, picture, request.area)?
+    };
+    Ok(Encoded { number: request.number, area: request.area, fit, shape })
+}
+
+fn shape(medium: &Medium, picture: Image, area: Size) -> Result<Shape, String> {
+    if medium.kind == Kind::Halfblocks {
+        return Ok(Shape::Blocks(Blocks::new(&picture, medium.depth)));
+    }
+    let [width, height] = picture.size;
+    let bytes = picture.texels.into_flattened();
+    let image =
+        RgbaImage::from_raw(width, height, bytes).ok_or("the picture has not the size that it says")?;
+    let image = DynamicImage::from(image);
+    let graphics = match medium.kind {
+        Kind::Kitty => Kitty::new(image, area, NAME, false, true).map(Protocol::Kitty),
+        Kind::Sixel => Sixel::new(image, area, false).map(Protocol::Sixel),
+        Kind::Iterm2 => Iterm2::new(image, area, false).map(Protocol::ITerm2),
+        Kind::Halfblocks | Kind::None => return Ok(Shape::Nothing),
+    };
+    graphics.map(Shape::Graphics).map_err(|error| error.to_string())
+}
+
+/// Where a request waits.
+#[derive(Default)]
+struct Desk {
+    slot: Mutex<Slot>,
+    changed: Condvar,
+}
+
+#[derive(Default)]
+struct Slot {
+    next: Option<Request>,
+    closed: bool,
+}
+
+impl Desk {
+    /// Changes the slot. A thread that panicked while it held it left it whole: nothing in it is half done.
+    fn change(&self, change: impl FnOnce(&mut Slot)) {
+        change(&mut self.slot.lock().unwrap_or_else(PoisonError::into_inner));
+        self.changed.notify_one();
+    }
+
+    /// Waits for a request. None when there will be no more.
+    fn take(&self) -> Option<Request> {
+        let mut slot = self.slot.lock().unwrap_or_else(PoisonError::into_inner);
+        loop {
+            if slot.closed {
+                return None;
+            }
+            if let Some(request) = slot.next.take() {
+                return Some(request);
+            }
+            slot = self.changed.wait(slot).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+}
+
+/// A thread that makes pictures ready.
+pub struct Encoder {
+    desk: Arc<Desk>,
+    asked: Option<Key>,
+}
+
+impl fmt::Debug for Encoder {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Encoder, last asked for {:?}", self.asked)
+    }
+}
+
+impl Encoder {
+    /// Starts the thread. It hands each picture to `done`. An error says that there can be no thread.
+    pub fn start(
+        medium: Medium,
+        mut done: impl FnMut(Result<Encoded, String>) + Send + 'static,
+    ) -> std::io::Result<Self> {
+        let desk = Arc::new(Desk::default());
+        let theirs = Arc::clone(&desk);
+        let work = move || {
+            while let Some(request) = theirs.take() {
+                done(encode(&medium, &request));
+            }
+        };
+        thread::Builder::new().name("encoder".into()).spawn(work)?;
+        Ok(Self { desk, asked: None })
+    }
+
+    /// Asks for a picture, unless it is the one that was asked for last. True if it is another.
+    pub fn ask(&mut self, request: Request) -> bool {
+        let key = request.key();
+        let other = self.asked != Some(key);
+        if other {
+            self.asked = Some(key);
+            self.desk.change(|slot| slot.next = Some(request));
+        }
+        other
+    }
+
+    /// What was shown is gone, since the terminal was cleared or left: the same picture has to be made again.
+    pub fn forget(&mut self) {
+        self.asked = None;
+    }
+}
+
+impl Drop for Encoder {
+    fn drop(&mut self) {
+        self.desk.change(|slot| *slot = Slot { next: None, closed: true });
+    }
+}
+
+#[cfg(test)]
+mod tests;
