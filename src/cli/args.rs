@@ -188,12 +188,15 @@ pub(super) struct Replay {
     pub(super) frame: Option<PathBuf>,
     #[command(flatten)]
     pub(super) viewpoint: Viewpoint,
-    /// Draw over it: the mesh's edges (`wire`), or whatever the last cut's report has to show, by its name or by the first word of it: `line`,
+    /// Draw over it: the mesh's edges (`wire`), its charts (`charts`), or whatever the last cut's report has to show, by its name or by the first word of it: `line`,
     /// `picks`, `gutter`, `painted`, `configurations`
     #[arg(long, value_name = "NAME", value_delimiter = ',', requires = "frame")]
     pub(super) overlay: Vec<String>,
+    /// Mark elements in it: faces, edges, nodes, vertices, such as f12,e7,n3,v9
+    #[arg(long, value_name = "IDS", value_delimiter = ',', requires = "frame")]
+    pub(super) select: Vec<String>,
     /// Instead of the frame, a map as it is in the end
-    #[arg(long, value_enum, value_name = "MAP", requires = "frame", conflicts_with = "overlay")]
+    #[arg(long, value_enum, value_name = "MAP", requires = "frame")]
     pub(super) map: Option<Map>,
     #[command(flatten)]
     pub(super) pixels: Pixels,

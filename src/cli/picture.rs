@@ -1,6 +1,6 @@
 //! The picture of a replay's end: the frame with what was asked for drawn over it, or a map.
 
-use super::args::Replay;
+use super::args::{Map, Replay};
 use super::failure::Failure;
 use super::{orbit, pixels};
 use crate::canvas::image::Image;
@@ -9,25 +9,61 @@ use crate::replay::{self, Shot};
 use crate::report::{Overlay, RunReport, printable};
 
 /// The overlays that are no report's, by name.
-const OURS: [(&str, Drawing<'static>); 1] = [("wire", Drawing::Wire)];
+const OURS: [(&str, Drawing<'static>); 2] = [("wire", Drawing::Wire), ("charts", Drawing::Charts)];
 
-/// The frame as it is in the end with what is drawn over it, or a map.
+/// The frame, or a map, as it is in the end with what is drawn over it.
 pub(super) fn of(
     typed: &Replay,
     report: &RunReport,
     replay: &mut dyn replay::Replay,
 ) -> Result<Image, Failure> {
-    if let Some(map) = typed.map {
-        return replay.map(pixels::map_id(map)).ok_or_else(|| pixels::missing(replay));
-    }
     let last_cut = report.events.iter().rev().find(|event| event.cut);
-    let drawings = drawings(&typed.overlay, last_cut.map_or(&[], |event| &event.overlays))?;
+    let mut drawings = drawings(&typed.overlay, last_cut.map_or(&[], |event| &event.overlays))?;
+    if !typed.select.is_empty() {
+        require_elements(&typed.select, replay)?;
+        drawings.push(Drawing::Marked(&typed.select));
+    }
+    match typed.map {
+        Some(map) => over_map(map, &drawings, replay),
+        None => over_frame(typed, &drawings, replay),
+    }
+}
+
+fn over_frame(
+    typed: &Replay,
+    drawings: &[Drawing<'_>],
+    replay: &mut dyn replay::Replay,
+) -> Result<Image, Failure> {
     let shot = Shot { orbit: orbit::of(typed.viewpoint, replay)?, limit: None };
     let (mut frame, view) = replay.shoot(&shot).ok_or_else(|| pixels::missing(replay))?;
     if let Some(mesh) = replay.mesh() {
-        overlay::draw(&mut frame.image, &view, mesh, &drawings);
+        overlay::draw(&mut frame.image, &view, mesh, drawings);
     }
     Ok(frame.image)
+}
+
+fn over_map(map: Map, drawings: &[Drawing<'_>], replay: &mut dyn replay::Replay) -> Result<Image, Failure> {
+    let mut image = replay.map(pixels::map_id(map)).ok_or_else(|| pixels::missing(replay))?;
+    if drawings.is_empty() {
+        return Ok(image);
+    }
+    let mesh = replay.mesh().filter(|mesh| mesh.is_textured());
+    let mesh =
+        mesh.ok_or_else(|| Failure::new("without texture coordinates nothing can be drawn over a map"))?;
+    overlay::draw_uv(&mut image, mesh, drawings);
+    Ok(image)
+}
+
+/// An element that is not there cannot be marked.
+fn require_elements(ids: &[String], replay: &dyn replay::Replay) -> Result<(), Failure> {
+    let mesh = replay.mesh().ok_or_else(|| Failure::new("this engine has no elements to mark"))?;
+    match overlay::missing(mesh, ids) {
+        Some(id) => Err(Failure::new(format_args!(
+            "--select {}: there is no such element; faces are f0 and so on, edges e0, nodes n0, vertices v0",
+            printable(id)
+        ))),
+        None => Ok(()),
+    }
 }
 
 /// What some names stand for, of what an event has to show.
@@ -92,6 +128,6 @@ mod tests {
     #[test]
     fn a_name_that_nothing_goes_by_is_an_error_that_says_what_there_is() {
         let error = drawn(&["line", "B"]).unwrap_err();
-        assert_eq!(error, "there is no overlay `B` of the last cut; there are wire, line, kind");
+        assert_eq!(error, "there is no overlay `B` of the last cut; there are wire, charts, line, kind");
     }
 }

@@ -134,10 +134,45 @@ fn a_frame_shows_whatever_the_report_has_to_show() {
         "cheese",
     ]);
     assert!(
-        error.contains("there is no overlay `cheese` of the last cut; there are wire, line, picks"),
+        error.contains("there is no overlay `cheese` of the last cut; there are wire, charts, line, picks"),
         "{error}"
     );
     assert!(!at.exists());
+}
+
+#[test]
+fn elements_are_marked_in_a_frame_and_in_a_map() {
+    let (folder, plain) = square();
+    let uv = "[[0, 1, 2], [0, 2, 3]], \"uv\": [[0, 0], [1, 0], [1, 1], [0, 1]]";
+    let script = folder.path().join("textured.json");
+    std::fs::write(&script, SQUARE.replace("[[0, 1, 2], [0, 2, 3]]", uv)).unwrap();
+    let script = script.to_str().unwrap();
+    let at = folder.path().join("frame.png").to_str().unwrap().to_owned();
+    let replay = |script| ["replay", script, "--renderer", "reference", "--until", "2", "--frame", &at];
+    let frame = |rest: &[&str]| {
+        answer(&[&replay(script)[..], rest].concat());
+        std::fs::read(&at).unwrap()
+    };
+    let [shown, map] = [frame(&[]), frame(&["--map", "colour"])];
+    let mut pictures = vec![shown, map];
+    for ids in ["f0", "e2", "n3", "v1", "f0,n3"] {
+        pictures.push(frame(&["--select", ids]));
+        pictures.push(frame(&["--select", ids, "--map", "colour"]));
+    }
+    pictures.push(frame(&["--overlay", "charts"]));
+    pictures.push(frame(&["--overlay", "line", "--map", "colour"]));
+    let count = pictures.len();
+    pictures.sort_unstable();
+    pictures.dedup();
+    assert_eq!(pictures.len(), count, "each shows something else");
+    for id in ["f99", "x1", "7", "f", ""] {
+        let error = complaint(&[&replay(script)[..], &["--select", id]].concat());
+        assert!(error.contains(&format!("--select {id}: there is no such element")), "{error}");
+    }
+    let error = complaint(&[&replay(&plain)[..], &["--select", "f0", "--map", "colour"]].concat());
+    assert!(error.contains("without texture coordinates"), "{error}");
+    let error = complaint(&[&replay(script)[..], &["--zenith", "1", "--map", "colour"]].concat());
+    assert!(error.contains("cannot be used with"), "{error}");
 }
 
 #[test]

@@ -47,6 +47,12 @@ impl Marked {
     }
 }
 
+/// The first of some ids that is no element of a mesh.
+pub fn missing<'a>(mesh: &Mesh, ids: &'a [String]) -> Option<&'a str> {
+    let is_missing = |id: &&String| Marked::of(mesh, std::slice::from_ref(*id)) == Marked::default();
+    ids.iter().find(is_missing).map(String::as_str)
+}
+
 /// A letter and a number.
 fn parse(id: &str) -> Option<(char, u32)> {
     let mut rest = id.chars();

@@ -20,6 +20,7 @@ mod texture;
 
 use ink::Ink;
 use marked::Marked;
+pub use marked::missing;
 pub use pick::face_at;
 use scene::Scene;
 pub use texture::draw_uv;
