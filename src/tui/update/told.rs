@@ -45,8 +45,10 @@ fn broken(model: &mut Model, why: &str) {
 }
 
 fn open(model: &mut Model, opened: Opened) {
-    let Model { size, focus, maximised, pace, stops, effects, asked, answered, .. } = std::mem::take(model);
-    let kept = Model { size, focus, maximised, pace, stops, effects, asked, answered, ..Model::default() };
+    let Model { size, focus, maximised, pace, stops, memory, effects, asked, answered, .. } =
+        std::mem::take(model);
+    let kept =
+        Model { size, focus, maximised, pace, stops, memory, effects, asked, answered, ..Model::default() };
     *model = Model { opened: Some(opened), ..kept };
     model.ask(Ask::Learn);
 }
