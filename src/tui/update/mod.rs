@@ -3,6 +3,7 @@
 //! A key goes to what lies on top: a popup takes it first; then the actions that count where the focus is; then those that count everywhere.
 
 mod focus;
+pub(in crate::tui) mod record;
 mod step;
 mod told;
 
@@ -60,6 +61,24 @@ pub(in crate::tui) fn act(model: &mut Model, action: Action) {
         | A::FocusChecks
         | A::FocusDifferences
         | A::Maximise => focus::act(model, action),
+        A::Record
+        | A::RecordNew
+        | A::Point
+        | A::CrossLeft
+        | A::CrossRight
+        | A::CrossUp
+        | A::CrossDown
+        | A::NudgeLeft
+        | A::NudgeRight
+        | A::NudgeUp
+        | A::NudgeDown
+        | A::Mode
+        | A::Undo
+        | A::Redo
+        | A::Checkpoint
+        | A::Event
+        | A::Drop
+        | A::Save => record::act(model, action),
         A::Suspend => model.effects.push(Effect::Suspend),
         A::Redraw => model.effects.push(Effect::Redraw),
         A::Quit => model.done = true,
