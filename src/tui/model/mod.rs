@@ -19,7 +19,7 @@ use crate::tui::compare::Differences;
 use crate::tui::list::List;
 use crate::tui::picture::PictureState;
 use crate::tui::popups::Popup;
-use crate::tui::record::Recorder;
+use crate::tui::record::{Kept, Recorder};
 use crate::tui::worker::{Ask, Opened, Standing};
 
 /// A part of the screen that can be focused.
@@ -145,6 +145,8 @@ pub(in crate::tui) struct Model {
     pub(in crate::tui) differences: Option<Differences>,
     /// The recording that is being made.
     pub(in crate::tui) recorder: Option<Recorder>,
+    /// What becomes of what was recorded.
+    pub(in crate::tui) kept: Kept,
     /// What lies over the panes.
     pub(in crate::tui) popup: Option<Popup>,
     /// What was done before, and is offered again.

@@ -6,6 +6,7 @@ mod focus;
 #[cfg(test)]
 pub(in crate::tui) mod kit;
 pub(in crate::tui) mod popup;
+pub(in crate::tui) mod record;
 mod step;
 mod told;
 
@@ -65,6 +66,24 @@ pub(in crate::tui) fn act(model: &mut Model, action: Action) {
         | A::FocusDifferences
         | A::Maximise => focus::act(model, action),
         A::GoTo => popup::ask(model, Question::GoTo),
+        A::Record
+        | A::RecordNew
+        | A::Point
+        | A::CrossLeft
+        | A::CrossRight
+        | A::CrossUp
+        | A::CrossDown
+        | A::NudgeLeft
+        | A::NudgeRight
+        | A::NudgeUp
+        | A::NudgeDown
+        | A::Mode
+        | A::Undo
+        | A::Redo
+        | A::Checkpoint
+        | A::Event
+        | A::Drop
+        | A::Save => record::act(model, action),
         A::Suspend => model.effects.push(Effect::Suspend),
         A::Redraw => model.effects.push(Effect::Redraw),
         A::Quit | A::Leave => model.done = true,

@@ -175,9 +175,13 @@ pub(in crate::tui) fn beat(model: &mut Model) {
 }
 
 fn cancel(model: &mut Model) {
+    let idle = model.playing.is_none() && model.progress.is_none();
     (model.playing, model.wanted) = (None, None);
     if model.progress.is_some() {
         model.ask(Ask::Cancel);
     }
     model.message = None;
+    if idle {
+        super::record::stop(model);
+    }
 }
