@@ -84,7 +84,7 @@ fn dispatch(command: Command, console: &mut Console<'_>) -> Done {
         Command::Merge(typed) => merge::run(&typed, console),
         Command::Bless(typed) => bless::run(&typed, console),
         Command::Replay(typed) => replay::run(&typed, console),
-        Command::Tui(typed) => tui::run(&typed),
+        Command::Tui(typed) => tui::run(&typed, console),
         Command::Render(typed) => render::run(&typed, console),
         Command::Pack(typed) => pack::run(&typed, console),
         Command::Unpack(typed) => unpack::run(&typed, console),

@@ -29,6 +29,7 @@ mod record;
 mod run;
 pub mod screen;
 mod shot;
+mod stage;
 mod status;
 pub mod terminal;
 pub mod text;
@@ -38,6 +39,7 @@ mod view;
 mod worker;
 
 pub use run::{Start, run};
+pub use stage::Stage;
 
 /// The names of all actions, as the configuration gives them keys.
 pub fn action_names() -> Vec<&'static str> {

@@ -21,7 +21,7 @@ use super::{events, update, view};
 use crate::render::Choice;
 
 /// How the program was started.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Start {
     /// The recording or script to open.
     pub recording: Option<PathBuf>,
