@@ -12,7 +12,7 @@ use super::report::RecordingReport;
 use super::suite::read_gates;
 use crate::canvas::Studio;
 use crate::canvas::image::Image;
-use crate::replay::Options;
+use crate::replay::{CheckpointFrame, Options};
 
 /// A recording, as it is and as its goldens are.
 #[derive(Clone, Debug)]
@@ -55,7 +55,7 @@ pub fn against_goldens(
 
 fn pictures(seen: Seen, reports: &[ImageReport]) -> Vec<ComparedPicture> {
     let Seen { found, mut stored } = seen;
-    let beside = |(frame, report): (crate::replay::CheckpointFrame, &ImageReport)| ComparedPicture {
+    let beside = |(frame, report): (CheckpointFrame, &ImageReport)| ComparedPicture {
         golden: stored.pictures.remove(&frame.name).map(|picture| picture.image),
         checkpoint: frame.name,
         event: frame.event,
