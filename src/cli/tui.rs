@@ -18,10 +18,19 @@ pub(super) fn run(typed: &Tui) -> Done {
     tui::run(Start {
         recording: typed.recording.clone(),
         renderer: pixels::choice(typed.renderer),
+        compare: compare(typed),
         budget_bytes: (typed.budget as usize) << 20,
         config,
     })?;
     Ok(Status::Verified)
+}
+
+/// What to compare it with at once.
+#[cfg(feature = "tui")]
+fn compare(typed: &Tui) -> Option<crate::tui::With> {
+    use crate::tui::With;
+    let run = typed.compare_with.clone().map(With::Run);
+    run.or_else(|| typed.compare.then_some(With::Goldens))
 }
 
 #[cfg(not(feature = "tui"))]

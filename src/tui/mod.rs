@@ -37,6 +37,7 @@ mod update;
 mod view;
 mod worker;
 
+pub use compare::With;
 pub use run::{Start, run};
 
 /// The names of all actions, as the configuration gives them keys.

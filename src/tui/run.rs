@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 
 use crossterm::event::Event;
 
+use super::compare::With;
 use super::config::Config;
 use super::environment::Environment;
 use super::keys::Keys;
@@ -29,6 +30,8 @@ pub struct Start {
     pub renderer: Choice,
     /// Bytes that going back may take, beside what undo and redo need.
     pub budget_bytes: usize,
+    /// What to compare it with at once.
+    pub compare: Option<With>,
     /// The user's settings.
     pub config: Config,
 }
@@ -70,7 +73,8 @@ impl App {
         let keys = Keys::new(&start.config.keys);
         let mut terminal = Terminal::take(start.config.mouse)?;
         let size = terminal.size()?;
-        let mut model = Model { size: [size.width, size.height], ..Model::default() };
+        let compare_first = start.compare;
+        let mut model = Model { size: [size.width, size.height], compare_first, ..Model::default() };
         start.recording.into_iter().for_each(|path| model.ask(Ask::Open(path)));
         // The first frame comes before anything that takes time.
         terminal.draw(|frame| view::draw(&model, &theme, &keys, frame.buffer_mut()))?;

@@ -13,7 +13,7 @@ pub(in crate::tui) use timing::Timing;
 
 use crate::canvas::frame::Orbit;
 use crate::report::{EventReport, Finding, StateReport, Stop};
-use crate::tui::compare::Differences;
+use crate::tui::compare::{Comparing, Differences, With};
 use crate::tui::list::List;
 use crate::tui::picture::PictureState;
 use crate::tui::popups::Popup;
@@ -141,6 +141,12 @@ pub(in crate::tui) struct Model {
     pub(in crate::tui) picture: PictureState,
     /// What it is compared with, and how it differs.
     pub(in crate::tui) differences: Option<Differences>,
+    /// The comparison that is being made.
+    pub(in crate::tui) comparing: Option<Comparing>,
+    /// How many comparisons were begun.
+    pub(in crate::tui) comparisons: u64,
+    /// What is to be compared with once a recording is open.
+    pub(in crate::tui) compare_first: Option<With>,
     /// The recording that is being made.
     pub(in crate::tui) recorder: Option<Recorder>,
     /// What lies over the panes.
@@ -212,7 +218,10 @@ impl Model {
 
     /// Whether the worker is at work.
     pub(in crate::tui) fn is_busy(&self) -> bool {
-        self.answered < self.asked || self.progress.is_some() || self.picture.is_awaited()
+        self.answered < self.asked
+            || self.progress.is_some()
+            || self.comparing.is_some()
+            || self.picture.is_awaited()
     }
 
     /// Chooses the row of the place in the timeline.

@@ -1,6 +1,7 @@
 //! The panes, a file each: what they show of the model, how many rows they have, and what a row selects.
 
 mod checks;
+mod differences;
 mod mesh;
 mod picture;
 mod stages;
@@ -22,7 +23,7 @@ pub(super) fn draw(pane: Pane, model: &Model, theme: &Theme, area: Rect, buffer:
         Pane::Picture => picture::draw(model, theme, area, buffer),
         Pane::Tables => tables::draw(model, theme, area, buffer),
         Pane::Checks => checks::draw(model, theme, area, buffer),
-        Pane::Differences => {}
+        Pane::Differences => differences::draw(model, theme, area, buffer),
     }
 }
 
@@ -32,6 +33,7 @@ pub(super) fn about(pane: Pane, model: &Model) -> String {
         Pane::Tables => tables::about(model),
         Pane::Checks => checks::about(model),
         Pane::Picture => picture::about(model),
+        Pane::Differences => differences::about(model),
         _ => String::new(),
     }
 }
@@ -44,7 +46,8 @@ pub(super) fn len(model: &Model, pane: Pane) -> usize {
         Pane::Mesh => mesh::len(model),
         Pane::Tables => tables::len(model),
         Pane::Checks => checks::len(model),
-        Pane::Picture | Pane::Differences => 0,
+        Pane::Differences => differences::len(model),
+        Pane::Picture => 0,
     }
 }
 
@@ -53,6 +56,7 @@ pub(super) fn ids(model: &Model, pane: Pane) -> Vec<String> {
     match pane {
         Pane::Tables => tables::ids(model),
         Pane::Checks => checks::ids(model),
+        Pane::Differences => differences::ids(model),
         _ => Vec::new(),
     }
 }

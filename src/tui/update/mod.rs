@@ -2,6 +2,7 @@
 //!
 //! A key goes to what lies on top: a popup takes it first; then the actions that count where the focus is; then those that count everywhere.
 
+pub(in crate::tui) mod compare;
 mod focus;
 mod step;
 mod told;
@@ -10,7 +11,7 @@ pub(in crate::tui) use step::{beat, go};
 pub(in crate::tui) use told::told;
 
 use crate::tui::action::Action;
-use crate::tui::model::{Effect, Model};
+use crate::tui::model::{Effect, Model, Pane};
 use crate::tui::worker::Ask;
 
 /// Asks for the picture that is wanted, if it is not the one that is there or was asked for.
@@ -41,6 +42,8 @@ pub(in crate::tui) fn act(model: &mut Model, action: Action) {
         | A::RunOn
         | A::Cancel
         | A::Check => step::act(model, action),
+        A::Compare | A::NextDivergence => compare::act(model, action),
+        A::Select if model.focus == Pane::Differences => compare::act(model, action),
         A::Up
         | A::Down
         | A::PageUp

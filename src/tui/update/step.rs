@@ -134,6 +134,9 @@ fn cancel(model: &mut Model) {
     if model.popup.take().is_some() {
         return;
     }
+    if super::compare::cancel(model) {
+        return;
+    }
     (model.playing, model.wanted) = (None, None);
     if model.progress.is_some() {
         model.ask(Ask::Cancel);

@@ -29,6 +29,8 @@ pub(in crate::tui) fn told(model: &mut Model, told: Told) {
                 }
             }
         }
+        Told::Comparing { number, done, of } => super::compare::advanced(model, number, done, of),
+        Told::Compared { number, found } => super::compare::compared(model, number, *found),
         Told::Stopped(why) => {
             model.playing = None;
             model.say(format!("stopped: {why}"));
@@ -45,10 +47,35 @@ fn broken(model: &mut Model, why: &str) {
 }
 
 fn open(model: &mut Model, opened: Opened) {
-    let Model { size, focus, maximised, pace, stops, effects, asked, answered, .. } = std::mem::take(model);
-    let kept = Model { size, focus, maximised, pace, stops, effects, asked, answered, ..Model::default() };
+    super::compare::cancel(model);
+    let Model {
+        size,
+        focus,
+        maximised,
+        pace,
+        stops,
+        effects,
+        asked,
+        answered,
+        comparisons,
+        compare_first,
+        ..
+    } = std::mem::take(model);
+    let kept = Model {
+        size,
+        focus,
+        maximised,
+        pace,
+        stops,
+        effects,
+        asked,
+        answered,
+        comparisons,
+        ..Model::default()
+    };
     *model = Model { opened: Some(opened), ..kept };
     model.ask(Ask::Learn);
+    compare_first.into_iter().for_each(|with| super::compare::begin(model, with, false));
 }
 
 /// Where the worker got to by itself, or was stopped, is where the screen goes too, unless it has been sent on since.

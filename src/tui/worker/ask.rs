@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::canvas::frame::Orbit;
 use crate::report::{EventReport, Finding, StateReport, Stop};
+use crate::tui::compare::{Differences, Job};
 use crate::tui::model::Place;
 use crate::tui::shot::{Picture, Shot};
 
@@ -23,6 +24,10 @@ pub(in crate::tui) enum Ask {
     Shoot(Box<Shot>),
     /// Look at the invariants of the whole state, as it is now.
     Check,
+    /// Compare a recording's file with its goldens or with another run, beside everything else.
+    Compare(Job),
+    /// Stop comparing.
+    StopComparing,
     /// Stop what is being done, if anything is.
     Cancel,
 }
@@ -30,12 +35,12 @@ pub(in crate::tui) enum Ask {
 impl Ask {
     /// Whether it comes before pictures, and before what nobody waits for.
     pub(in crate::tui) fn is_urgent(&self) -> bool {
-        !matches!(self, Self::Shoot(_) | Self::Learn)
+        !matches!(self, Self::Shoot(_) | Self::Learn | Self::Compare(_) | Self::StopComparing)
     }
 
     /// Whether it puts an end to what is being done.
     pub(in crate::tui) fn interrupts(&self) -> bool {
-        !matches!(self, Self::Shoot(_) | Self::Check | Self::Learn)
+        self.is_urgent() && !matches!(self, Self::Check)
     }
 }
 
@@ -91,6 +96,22 @@ pub(in crate::tui) enum Told {
     Picture(Box<Picture>),
     /// The invariants of the whole state.
     Checked(Box<StateReport>),
+    /// How far a comparison is.
+    Comparing {
+        /** Which. */
+        number: u64,
+        /** How many events have run. */
+        done: usize,
+        /** Of how many. */
+        of: usize,
+    },
+    /// What a comparison came to, or why there is none.
+    Compared {
+        /** Which. */
+        number: u64,
+        /** What was found. */
+        found: Box<Result<Differences, String>>,
+    },
     /// A run stopped at an event, for this reason.
     Stopped(String),
     /// The program broke one of its own assertions, and what was open is closed.

@@ -8,11 +8,12 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::ask::{Ask, Opened, Standing, Told};
-use super::camera;
+use super::{camera, compare};
 use crate::canvas::Studio;
 use crate::render::{self, Choice};
 use crate::replay::{Case, Options, Replay};
 use crate::report::{EventReport, Stop};
+use crate::tui::compare::Job;
 use crate::tui::model::Place;
 use crate::tui::shot::{Picture, Shot};
 
@@ -74,8 +75,17 @@ impl Desk {
                 line.tell(Told::Checked(Box::new(state)));
                 Ok(())
             }
-            Ask::Cancel => Ok(()),
+            Ask::Compare(job) => {
+                self.compare(&job, line);
+                Ok(())
+            }
+            Ask::Cancel | Ask::StopComparing => Ok(()),
         }
+    }
+
+    /// Makes a comparison, which has nothing to do with what is open here.
+    pub(in crate::tui) fn compare(&self, job: &Job, line: &mut dyn Line) {
+        compare::carry_out(job, self.choice, line);
     }
 
     fn opened(&mut self) -> Result<&mut Open, String> {
