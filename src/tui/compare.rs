@@ -54,6 +54,22 @@ pub(in crate::tui) struct Comparing {
     pub(in crate::tui) then_go: bool,
 }
 
+/// The comparisons of the whole time that the program runs.
+#[derive(Clone, Debug, Default)]
+pub(in crate::tui) struct Comparisons {
+    /// How many were begun.
+    pub(in crate::tui) begun: u64,
+    /// What the first recording is to be compared with as soon as it is open.
+    pub(in crate::tui) first: Option<With>,
+}
+
+impl Comparisons {
+    /// None yet, but one to begin with.
+    pub(in crate::tui) fn first(with: Option<With>) -> Self {
+        Self { begun: 0, first: with }
+    }
+}
+
 /// Where in a run something differs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(in crate::tui) enum At {

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use crossterm::event::Event;
 
-use super::compare::With;
+use super::compare::{Comparisons, With};
 use super::config::Config;
 use super::environment::Environment;
 use super::keys::Keys;
@@ -73,8 +73,8 @@ impl App {
         let keys = Keys::new(&start.config.keys);
         let mut terminal = Terminal::take(start.config.mouse)?;
         let size = terminal.size()?;
-        let compare_first = start.compare;
-        let mut model = Model { size: [size.width, size.height], compare_first, ..Model::default() };
+        let comparisons = Comparisons::first(start.compare);
+        let mut model = Model { size: [size.width, size.height], comparisons, ..Model::default() };
         start.recording.into_iter().for_each(|path| model.ask(Ask::Open(path)));
         // The first frame comes before anything that takes time.
         terminal.draw(|frame| view::draw(&model, &theme, &keys, frame.buffer_mut()))?;

@@ -2,18 +2,20 @@
 //!
 //! The reports of the events that have run are all there, so that walking among them shows each at once; the worker follows with mesh and picture.
 
+mod memory;
 mod place;
 mod timing;
 
 use std::sync::Arc;
 use std::time::Duration;
 
-pub(in crate::tui) use place::Place;
+pub(in crate::tui) use memory::Memory;
+pub(in crate::tui) use place::{Place, ran};
 pub(in crate::tui) use timing::Timing;
 
 use crate::canvas::frame::Orbit;
 use crate::report::{EventReport, Finding, StateReport, Stop};
-use crate::tui::compare::{Comparing, Differences, With};
+use crate::tui::compare::{Comparing, Comparisons, Differences};
 use crate::tui::list::List;
 use crate::tui::picture::PictureState;
 use crate::tui::popups::Popup;
@@ -143,14 +145,14 @@ pub(in crate::tui) struct Model {
     pub(in crate::tui) differences: Option<Differences>,
     /// The comparison that is being made.
     pub(in crate::tui) comparing: Option<Comparing>,
-    /// How many comparisons were begun.
-    pub(in crate::tui) comparisons: u64,
-    /// What is to be compared with once a recording is open.
-    pub(in crate::tui) compare_first: Option<With>,
+    /// Those that were begun, and that are to be.
+    pub(in crate::tui) comparisons: Comparisons,
     /// The recording that is being made.
     pub(in crate::tui) recorder: Option<Recorder>,
     /// What lies over the panes.
     pub(in crate::tui) popup: Option<Popup>,
+    /// What was done before, and is offered again.
+    pub(in crate::tui) memory: Memory,
     /// What was searched for.
     pub(in crate::tui) search: String,
     /// What is said in the status line.

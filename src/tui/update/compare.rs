@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use crate::assets;
 use crate::report::printable;
 use crate::tui::action::Action;
-use crate::tui::compare::{self, Comparing, Differences, Job, Row, With};
+use crate::tui::compare::{self, Comparing, Comparisons, Differences, Job, Row, With};
 use crate::tui::model::{Model, Pane};
 use crate::tui::worker::Ask;
 
@@ -35,8 +35,8 @@ pub(in crate::tui) fn begin(model: &mut Model, with: With, then_go: bool) {
 
 fn try_to_begin(model: &mut Model, with: With, then_go: bool) -> Result<(), String> {
     let path = file(model)?;
-    model.comparisons += 1;
-    let job = Job { number: model.comparisons, path, with };
+    model.comparisons.begun += 1;
+    let job = Job { number: model.comparisons.begun, path, with };
     model.say(format!("comparing with {}", job.with.name()));
     model.comparing = Some(Comparing { job: job.clone(), done: 0, of: 0, then_go });
     model.ask(Ask::Compare(job));
@@ -58,6 +58,19 @@ pub(super) fn cancel(model: &mut Model) -> bool {
         model.say("not compared: stopped");
     }
     running
+}
+
+/// Another recording is opened: what is being compared is of no use any longer.
+pub(super) fn end(model: &mut Model) -> Comparisons {
+    cancel(model);
+    std::mem::take(&mut model.comparisons)
+}
+
+/// Another recording is open.
+pub(super) fn begin_first(model: &mut Model, mut comparisons: Comparisons) {
+    let first = comparisons.first.take();
+    model.comparisons = comparisons;
+    first.into_iter().for_each(|with| begin(model, with, false));
 }
 
 /// How far a comparison is.

@@ -4,6 +4,9 @@
 
 pub(in crate::tui) mod compare;
 mod focus;
+#[cfg(test)]
+pub(in crate::tui) mod kit;
+pub(in crate::tui) mod popup;
 mod step;
 mod told;
 
@@ -12,6 +15,7 @@ pub(in crate::tui) use told::told;
 
 use crate::tui::action::Action;
 use crate::tui::model::{Effect, Model, Pane};
+use crate::tui::popups::Question;
 use crate::tui::worker::Ask;
 
 /// Asks for the picture that is wanted, if it is not the one that is there or was asked for.
@@ -63,9 +67,11 @@ pub(in crate::tui) fn act(model: &mut Model, action: Action) {
         | A::FocusChecks
         | A::FocusDifferences
         | A::Maximise => focus::act(model, action),
+        A::GoTo => popup::ask(model, Question::GoTo),
+        A::CompareWith => popup::ask(model, Question::CompareWith),
         A::Suspend => model.effects.push(Effect::Suspend),
         A::Redraw => model.effects.push(Effect::Redraw),
-        A::Quit => model.done = true,
+        A::Quit | A::Leave => model.done = true,
         other => model.complain(format!("{} is not there yet", other.row().name)),
     }
 }

@@ -47,35 +47,14 @@ fn broken(model: &mut Model, why: &str) {
 }
 
 fn open(model: &mut Model, opened: Opened) {
-    super::compare::cancel(model);
-    let Model {
-        size,
-        focus,
-        maximised,
-        pace,
-        stops,
-        effects,
-        asked,
-        answered,
-        comparisons,
-        compare_first,
-        ..
-    } = std::mem::take(model);
-    let kept = Model {
-        size,
-        focus,
-        maximised,
-        pace,
-        stops,
-        effects,
-        asked,
-        answered,
-        comparisons,
-        ..Model::default()
-    };
+    let comparisons = super::compare::end(model);
+    let Model { size, focus, maximised, pace, stops, memory, effects, asked, answered, .. } =
+        std::mem::take(model);
+    let kept =
+        Model { size, focus, maximised, pace, stops, memory, effects, asked, answered, ..Model::default() };
     *model = Model { opened: Some(opened), ..kept };
     model.ask(Ask::Learn);
-    compare_first.into_iter().for_each(|with| super::compare::begin(model, with, false));
+    super::compare::begin_first(model, comparisons);
 }
 
 /// Where the worker got to by itself, or was stopped, is where the screen goes too, unless it has been sent on since.
