@@ -39,6 +39,7 @@ mod update;
 mod view;
 mod worker;
 
+pub use compare::With;
 pub use record::Drafts;
 pub use run::{Start, run};
 pub use stage::Stage;

@@ -12,7 +12,7 @@ use ratatui::widgets::Widget;
 
 use super::action::Action;
 use super::keys::Keys;
-use super::model::{Model, Pane};
+use super::model::{Model, Pane, Progress};
 use super::record;
 use super::theme::{Role, Theme};
 use crate::report::printable;
@@ -39,7 +39,9 @@ pub(super) fn title(model: &Model, theme: &Theme, area: Rect, buffer: &mut Buffe
         spans.push(Span::styled(format!("▶ {} ms ", pause.as_millis()), theme.style(Role::Accent)));
     }
     Line::from(spans).render(area, buffer);
-    let busy = model.progress.map_or(String::new(), |progress| match progress.of {
+    let comparing = model.comparing.as_ref();
+    let comparing = comparing.map(|it| Progress { what: "comparing", done: it.done, of: it.of });
+    let busy = model.progress.or(comparing).map_or(String::new(), |progress| match progress.of {
         0 => format!(" {}… ", progress.what),
         of => format!(" {} {}/{of} ", progress.what, progress.done),
     });

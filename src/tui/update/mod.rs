@@ -2,6 +2,7 @@
 //!
 //! A key goes to what lies on top: a popup takes it first; then the actions that count where the focus is; then those that count everywhere.
 
+pub(in crate::tui) mod compare;
 mod focus;
 #[cfg(test)]
 pub(in crate::tui) mod kit;
@@ -14,7 +15,7 @@ pub(in crate::tui) use step::{beat, go};
 pub(in crate::tui) use told::told;
 
 use crate::tui::action::Action;
-use crate::tui::model::{Effect, Model};
+use crate::tui::model::{Effect, Model, Pane};
 use crate::tui::popups::Question;
 use crate::tui::worker::Ask;
 
@@ -46,6 +47,8 @@ pub(in crate::tui) fn act(model: &mut Model, action: Action) {
         | A::RunOn
         | A::Cancel
         | A::Check => step::act(model, action),
+        A::Compare | A::NextDivergence => compare::act(model, action),
+        A::Select if model.focus == Pane::Differences => compare::act(model, action),
         A::Up
         | A::Down
         | A::PageUp
@@ -66,6 +69,7 @@ pub(in crate::tui) fn act(model: &mut Model, action: Action) {
         | A::FocusDifferences
         | A::Maximise => focus::act(model, action),
         A::GoTo => popup::ask(model, Question::GoTo),
+        A::CompareWith => popup::ask(model, Question::CompareWith),
         A::Record
         | A::RecordNew
         | A::Point
