@@ -32,6 +32,7 @@ pub mod screen;
 mod shot;
 mod stage;
 mod status;
+mod tabs;
 pub mod terminal;
 pub mod text;
 pub mod theme;

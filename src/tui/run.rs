@@ -113,7 +113,7 @@ impl App {
             match effect {
                 Effect::Ask(ask) => self.worker.ask(ask),
                 Effect::Copy(text) => match self.terminal.copy(&text) {
-                    Ok(()) => self.model.say("copied"),
+                    Ok(()) => {}
                     Err(error) => self.model.complain(format!("not copied: {error}")),
                 },
                 Effect::Suspend => self.terminal.suspend()?,
