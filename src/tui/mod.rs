@@ -14,6 +14,7 @@ mod action;
 pub mod colour;
 mod compare;
 pub mod config;
+mod edit;
 pub mod environment;
 mod events;
 pub mod image;
@@ -31,6 +32,7 @@ pub mod screen;
 mod shot;
 mod stage;
 mod status;
+mod tabs;
 pub mod terminal;
 pub mod text;
 pub mod theme;
@@ -38,6 +40,8 @@ mod update;
 mod view;
 mod worker;
 
+pub use compare::With;
+pub use record::Drafts;
 pub use run::{Start, run};
 pub use stage::Stage;
 
