@@ -90,6 +90,20 @@ pub fn list_files(folder: &Path) -> Result<Vec<PathBuf>, AssetError> {
     Ok(files)
 }
 
+/// What lies in a folder, sorted by name, and whether it is a folder itself.
+pub fn list_folder(folder: &Path) -> Result<Vec<(PathBuf, bool)>, AssetError> {
+    let failed = |e: io::Error| AssetError::io(folder, &e);
+    let entries = fs::read_dir(folder).map_err(failed)?;
+    let entries = entries.map(|entry| entry.map(|entry| entry.path()).map_err(failed));
+    let mut paths = entries.collect::<Result<Vec<_>, _>>()?;
+    paths.sort();
+    let with_kind = |path: PathBuf| {
+        let is_folder = path.is_dir();
+        (path, is_folder)
+    };
+    Ok(paths.into_iter().map(with_kind).collect())
+}
+
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), AssetError> {
     let failed = |e: io::Error| AssetError::io(folder, &e);
     for entry in fs::read_dir(folder).map_err(failed)? {
@@ -119,6 +133,8 @@ mod tests {
         let listed = list_files(folder.path()).expect("listed");
         assert_eq!(listed, [at("a/c.txt"), at("a/d/z.txt"), at("b.txt")], "and no part is left over");
         assert!(list_files(&at("nowhere")).expect("none").is_empty());
+        assert_eq!(list_folder(folder.path()).expect("listed"), [(at("a"), true), (at("b.txt"), false)]);
+        assert!(list_folder(&at("nowhere")).is_err());
     }
 
     #[test]

@@ -100,6 +100,7 @@ pub(in crate::tui) enum Action {
     Suspend,
     Redraw,
     Quit,
+    Leave,
 }
 
 /// Where an action's keys count.
@@ -238,13 +239,19 @@ pub(in crate::tui) const ACTIONS: &[Row] = actions! {
     PreviousMatch "previous-match" Always ["N"] "Go to the match before";
     Suspend "suspend" Always ["ctrl-z"] "Go to the background";
     Redraw "redraw" Always ["ctrl-l"] "Draw the screen anew";
-    Quit "quit" Always ["q", "ctrl-c"] "Leave";
+    Quit "quit" Always ["q"] "Leave; asks what becomes of a recording that is not saved";
+    Leave "leave" Always ["ctrl-c"] "Leave at once; a recording that is not saved stays as a draft";
 };
 
 impl Action {
     /// Its row. The rows are in the order of the actions, which a test sees to.
     pub(in crate::tui) fn row(self) -> &'static Row {
         &ACTIONS[self as usize]
+    }
+
+    /// Whether its keys count whatever lies over the panes.
+    pub(in crate::tui) fn passes_popups(self) -> bool {
+        matches!(self, Self::Suspend | Self::Redraw | Self::Leave)
     }
 }
 

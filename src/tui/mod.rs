@@ -14,6 +14,7 @@ mod action;
 pub mod colour;
 mod compare;
 pub mod config;
+mod edit;
 pub mod environment;
 mod events;
 pub mod image;

@@ -53,9 +53,10 @@ fn broken(model: &mut Model, why: &str) {
 }
 
 fn open(model: &mut Model, opened: Opened) {
-    let Model { size, focus, maximised, pace, stops, effects, asked, answered, kept, .. } =
+    let Model { size, focus, maximised, pace, stops, memory, effects, asked, answered, kept, .. } =
         std::mem::take(model);
-    let stays = Model { size, focus, maximised, pace, stops, effects, asked, answered, ..Model::default() };
+    let stays =
+        Model { size, focus, maximised, pace, stops, memory, effects, asked, answered, ..Model::default() };
     *model = Model { opened: Some(opened), ..stays };
     model.ask(Ask::Learn);
     record::opened(model, kept);
