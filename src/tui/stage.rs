@@ -106,10 +106,7 @@ impl Stage {
                 let told = heard.0.into_iter().map(|told| if steady { steadied(told) } else { told });
                 told.for_each(|told| update::told(&mut self.model, told));
             }
-            Effect::Copy(text) => {
-                self.copied.push(text);
-                self.model.say("copied");
-            }
+            Effect::Copy(text) => self.copied.push(text),
             Effect::Suspend | Effect::Redraw => {}
         }
     }

@@ -46,6 +46,7 @@ fn go_on(model: &mut Model) {
     let events = model.place.events;
     let dropped = model.len() - events;
     let viewport = model.opened.as_ref().map_or(VIEWPORT, |opened| opened.viewport);
+    super::compare::cancel(model);
     change(model, Recorded { kept: events, unsaved: model.kept.unsaved, ..Recorded::default() });
     start(model, Recorder::new(viewport, events));
     model.ask(Ask::GoOn(events));
