@@ -37,9 +37,10 @@ impl Stage {
     pub fn open(start: &Start, theme: Theme, size: [u16; 2], steady: bool) -> Self {
         let model = Model { size, ..Model::default() };
         let keys = Keys::new(&start.config.keys);
-        let desk = Desk::new(start.renderer, start.budget_bytes);
+        let desk = Desk::new(start.renderer, start.budget_bytes).with_drafts(start.drafts.clone());
         let mut stage = Self { model, theme, keys, desk, steady, copied: Vec::new() };
         start.recording.iter().for_each(|path| stage.model.ask(Ask::Open(path.clone())));
+        stage.model.ask(Ask::Drafts);
         stage.settle();
         stage
     }
@@ -84,7 +85,7 @@ impl Stage {
     }
 
     /// Does what is asked, until nothing is.
-    fn settle(&mut self) {
+    pub(in crate::tui) fn settle(&mut self) {
         for _ in 0..ROUNDS {
             update::want_picture(&mut self.model);
             let effects = std::mem::take(&mut self.model.effects);
