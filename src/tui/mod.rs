@@ -31,6 +31,8 @@ mod run;
 pub mod screen;
 mod shot;
 mod status;
+#[cfg(test)]
+mod suite;
 pub mod terminal;
 pub mod text;
 pub mod theme;

@@ -63,6 +63,8 @@ fn entry<'a>(model: &'a Model, theme: &Theme, event: usize) -> Line<'a> {
         Span::styled(format!("{mark} "), theme.style(role)),
         Span::raw(printable(text)),
     ];
+    let differs = model.differences.as_ref().is_some_and(|differences| differences.has(event));
+    spans.extend(differs.then(|| Span::styled(" ≠", theme.style(Role::Bad))));
     if let Some(reason) = report.and_then(|report| report.reason.as_ref()) {
         spans.push(Span::styled(format!(" ({reason})"), theme.style(role)));
     }
