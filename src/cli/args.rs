@@ -161,7 +161,7 @@ pub(super) struct Replay {
     /// The recording
     #[arg(value_name = "REC", value_hint = ValueHint::FilePath)]
     pub(super) recording: PathBuf,
-    /// Stop after this event, or after a stage of it, such as 4.MC
+    /// Stop after this event, or after a stage of it, such as 4.MC; or before the first one (`start`)
     #[arg(long, value_name = "EVENT[.STAGE]")]
     pub(super) until: Option<Until>,
     /// Stop after the first event with a broken invariant (`finding`), that was rejected (`rejected`, `rejected=miss`), that counted something
@@ -216,6 +216,15 @@ pub(super) struct Viewpoint {
     pub(super) distance: Option<f64>,
 }
 
+/// What a screen lies on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Ground {
+    /// Light text on a dark ground
+    Dark,
+    /// Dark text on a light ground
+    Light,
+}
+
 /// Step through a recording in the terminal, and record new ones
 #[derive(Debug, clap::Args)]
 pub(super) struct Tui {
@@ -237,6 +246,18 @@ pub(super) struct Tui {
     /// The settings to use [default: config.toml in the user's folder of settings]
     #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
     pub(super) config: Option<PathBuf>,
+    /// Instead of taking the terminal, write what the screen shows: as text, or as a picture where F ends in .svg
+    #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
+    pub(super) screen: Option<Target>,
+    /// Type these keys first, with blanks between them, such as `l l s shift-tab`
+    #[arg(long, value_name = "KEYS", requires = "screen", default_value = "")]
+    pub(super) keys: String,
+    /// The screen's columns and rows
+    #[arg(long, value_name = "CxR", requires = "screen", default_value = "120x40")]
+    pub(super) size: Size,
+    /// Colours for a dark ground, or for a light one [default: the settings', or the terminal's]
+    #[arg(long, value_enum, value_name = "GROUND")]
+    pub(super) theme: Option<Ground>,
 }
 
 /// A map to write.

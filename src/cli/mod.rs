@@ -78,13 +78,28 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, console: &mut Console<
     }
 }
 
+/// Whether these arguments, of which the first is the program's name, are some that it takes. An error says what is wrong.
+#[cfg(test)]
+pub(crate) fn parses(arguments: &[String]) -> Result<(), String> {
+    Args::try_parse_from(arguments).map(drop).map_err(|error| error.to_string())
+}
+
+/// The long flags of a command.
+#[cfg(test)]
+pub(crate) fn flags(command: &str) -> Vec<String> {
+    use clap::CommandFactory;
+    let all = Args::command();
+    let command = all.find_subcommand(command).expect("a command");
+    command.get_arguments().filter_map(|argument| argument.get_long()).map(str::to_owned).collect()
+}
+
 fn dispatch(command: Command, console: &mut Console<'_>) -> Done {
     match command {
         Command::Verify(typed) => verify::run(&typed, console),
         Command::Merge(typed) => merge::run(&typed, console),
         Command::Bless(typed) => bless::run(&typed, console),
         Command::Replay(typed) => replay::run(&typed, console),
-        Command::Tui(typed) => tui::run(&typed),
+        Command::Tui(typed) => tui::run(&typed, console),
         Command::Render(typed) => render::run(&typed, console),
         Command::Pack(typed) => pack::run(&typed, console),
         Command::Unpack(typed) => unpack::run(&typed, console),

@@ -1,29 +1,83 @@
-//! `lancet tui`: the terminal, where there is one.
+//! `lancet tui`: the terminal, where there is one, or what it would show.
 
 use super::args::Tui;
 use super::failure::Failure;
-use super::{Done, Status};
+use super::{Console, Done, Status};
 
 #[cfg(feature = "tui")]
-pub(super) fn run(typed: &Tui) -> Done {
+pub(super) fn run(typed: &Tui, console: &mut Console<'_>) -> Done {
+    use super::args::Ground;
     use super::pixels;
     use crate::tui::config::Config;
     use crate::tui::terminal::Terminal;
-    use crate::tui::{self, Start};
+    use crate::tui::theme::Base;
+    use crate::tui::{self, Drafts, Start};
 
-    if !Terminal::is_there() {
-        return Err(Failure::new(format_args!("this is not a terminal: {INSTEAD}")));
-    }
-    let config = Config::load(typed.config.as_deref(), &tui::action_names()).map_err(Failure::new)?;
-    tui::run(Start {
+    let mut config = Config::load(typed.config.as_deref(), &tui::action_names()).map_err(Failure::new)?;
+    let base = typed.theme.map(|ground| match ground {
+        Ground::Dark => Base::Dark,
+        Ground::Light => Base::Light,
+    });
+    config.theme.base = base.or(config.theme.base);
+    let start = Start {
         recording: typed.recording.clone(),
         renderer: pixels::choice(typed.renderer),
         compare: compare(typed),
         budget_bytes: (typed.budget as usize) << 20,
+        drafts: Drafts::from_environment(),
         config,
-    })?;
+    };
+    if let Some(target) = &typed.screen {
+        return screen(typed, &start, target, console);
+    }
+    if !Terminal::is_there() {
+        return Err(Failure::new(format_args!("this is not a terminal: {INSTEAD}")));
+    }
+    tui::run(start)?;
     Ok(Status::Verified)
 }
+
+/// Writes what the screen shows.
+#[cfg(feature = "tui")]
+fn screen(
+    typed: &Tui,
+    start: &crate::tui::Start,
+    target: &super::args::Target,
+    console: &mut Console<'_>,
+) -> Done {
+    use std::io::Write;
+
+    use super::args::Target;
+    use crate::assets;
+    use crate::tui::environment::Environment;
+    use crate::tui::lower::Depth;
+    use crate::tui::theme::Theme;
+    use crate::tui::{Stage, screen};
+
+    let [width, height] = typed.size.0.map(|side| u16::try_from(side).unwrap_or(u16::MAX));
+    if u32::from(width) * u32::from(height) > MOST_CELLS {
+        return Err(Failure::new(format_args!("--size {width}x{height}: at most {MOST_CELLS} cells")));
+    }
+    let is_picture = matches!(target, Target::File(path) if path.extension().is_some_and(|ext| ext == "svg"));
+    let chosen = Theme::chosen(&start.config.theme, &Environment::read());
+    // A picture shows every colour, whatever this terminal can.
+    let theme = if is_picture { Theme::new(chosen.base(), Depth::Full) } else { chosen };
+    let mut stage = Stage::open(start, theme.clone(), [width, height], false);
+    stage.press(&typed.keys).map_err(|why| Failure::new(format_args!("--keys: {why}")))?;
+    let buffer = stage.screen();
+    match target {
+        Target::File(path) if is_picture => {
+            assets::write_file(path, screen::to_svg(&buffer, &theme).as_bytes())?
+        }
+        Target::File(path) => assets::write_file(path, screen::to_text(&buffer).as_bytes())?,
+        Target::Stdout => console.out.write_all(screen::to_text(&buffer).as_bytes())?,
+    }
+    Ok(Status::Verified)
+}
+
+/// No screen has more.
+#[cfg(feature = "tui")]
+const MOST_CELLS: u32 = 1 << 20;
 
 /// What to compare it with at once.
 #[cfg(feature = "tui")]
@@ -34,7 +88,7 @@ fn compare(typed: &Tui) -> Option<crate::tui::With> {
 }
 
 #[cfg(not(feature = "tui"))]
-pub(super) fn run(_: &Tui) -> Done {
+pub(super) fn run(_: &Tui, _: &mut Console<'_>) -> Done {
     Err(Failure::new(format_args!("this program was built without its terminal: {INSTEAD}")))
 }
 

@@ -12,6 +12,7 @@
 
 mod action;
 pub mod colour;
+mod command;
 mod compare;
 pub mod config;
 mod edit;
@@ -30,9 +31,11 @@ mod record;
 mod run;
 pub mod screen;
 mod shot;
+mod stage;
 mod status;
 #[cfg(test)]
 mod suite;
+mod tabs;
 pub mod terminal;
 pub mod text;
 pub mod theme;
@@ -41,7 +44,9 @@ mod view;
 mod worker;
 
 pub use compare::With;
+pub use record::Drafts;
 pub use run::{Start, run};
+pub use stage::Stage;
 
 /// The names of all actions, as the configuration gives them keys.
 pub fn action_names() -> Vec<&'static str> {

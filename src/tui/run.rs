@@ -15,6 +15,7 @@ use super::config::Config;
 use super::environment::Environment;
 use super::keys::Keys;
 use super::model::{Effect, Model};
+use super::record::Drafts;
 use super::terminal::{self, Terminal};
 use super::theme::Theme;
 use super::worker::{Ask, Desk, Told, Worker};
@@ -22,7 +23,7 @@ use super::{events, update, view};
 use crate::render::Choice;
 
 /// How the program was started.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Start {
     /// The recording or script to open.
     pub recording: Option<PathBuf>,
@@ -30,6 +31,8 @@ pub struct Start {
     pub renderer: Choice,
     /// Bytes that going back may take, beside what undo and redo need.
     pub budget_bytes: usize,
+    /// Where what is recorded is kept until it is saved.
+    pub drafts: Drafts,
     /// What to compare it with at once.
     pub compare: Option<With>,
     /// The user's settings.
@@ -76,14 +79,15 @@ impl App {
         let comparisons = Comparisons::first(start.compare);
         let mut model = Model { size: [size.width, size.height], comparisons, ..Model::default() };
         start.recording.into_iter().for_each(|path| model.ask(Ask::Open(path)));
+        model.ask(Ask::Drafts);
         // The first frame comes before anything that takes time.
         terminal.draw(|frame| view::draw(&model, &theme, &keys, frame.buffer_mut()))?;
         let (send, news) = channel();
         let typed = send.clone();
         terminal::listen(move |event| typed.send(News::Typed(event)).is_ok())?;
-        let (choice, budget) = (start.renderer, start.budget_bytes);
+        let (choice, budget, drafts) = (start.renderer, start.budget_bytes, start.drafts);
         let worker = Worker::start(
-            move || Desk::new(choice, budget),
+            move || Desk::new(choice, budget).with_drafts(drafts.clone()),
             // A screen that is gone is noticed when the next thing to do is looked for.
             move |told| drop(send.send(News::Told(told))),
         )?;
@@ -109,7 +113,7 @@ impl App {
             match effect {
                 Effect::Ask(ask) => self.worker.ask(ask),
                 Effect::Copy(text) => match self.terminal.copy(&text) {
-                    Ok(()) => self.model.say("copied"),
+                    Ok(()) => {}
                     Err(error) => self.model.complain(format!("not copied: {error}")),
                 },
                 Effect::Suspend => self.terminal.suspend()?,

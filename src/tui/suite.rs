@@ -1,13 +1,15 @@
-//! For tests: a recording with goldens in a folder of its own, and the screen and the worker's desk with it, one thing after the other.
+//! For tests: a recording with goldens in a folder of its own, and the screen with what is in it.
 
 use std::path::PathBuf;
 
 use crate::cli::{Console, Status};
 use crate::render::Choice;
 use crate::tui::action::Action;
-use crate::tui::model::{Effect, Model};
-use crate::tui::update;
-use crate::tui::worker::{Ask, Desk, Line, Told};
+use crate::tui::config::Config;
+use crate::tui::model::Model;
+use crate::tui::theme::Theme;
+use crate::tui::worker::Ask;
+use crate::tui::{Drafts, Stage, Start, With, update};
 
 /// A square of two triangles with texture coordinates, cut by two clicks, missed by a third, and cut back.
 pub(in crate::tui) const SQUARE: &str = r#"{ "version": 1, "viewport": [100, 100], "seed": 3,
@@ -62,63 +64,50 @@ impl Suite {
         assert_ne!(changed, text, "{name} is as it was");
         std::fs::write(self.at(name), changed).expect("written");
     }
-}
 
-/// The screen, with the worker's desk beside it.
-pub(in crate::tui) struct Screen {
-    pub(in crate::tui) model: Model,
-    desk: Desk,
-}
-
-/// What the desk told.
-#[derive(Default)]
-struct Heard(Vec<Told>);
-
-impl Line for Heard {
-    fn tell(&mut self, told: Told) {
-        self.0.push(told);
+    /// The screen with the recording open, and all its events run.
+    pub(in crate::tui) fn screen(&self) -> Screen {
+        self.screen_with(None)
     }
 
-    fn is_interrupted(&mut self) -> bool {
-        false
-    }
-
-    fn is_wanted(&mut self) -> bool {
-        false
+    /// The same, compared at once.
+    pub(in crate::tui) fn screen_with(&self, compare: Option<With>) -> Screen {
+        let start = Start {
+            recording: Some(self.recording().into()),
+            renderer: Choice::Reference,
+            budget_bytes: 1 << 20,
+            drafts: Drafts::default(),
+            compare,
+            config: Config::default(),
+        };
+        let stage = Stage::open(&start, Theme::default(), [120, 40], false);
+        assert!(stage.model.opened.is_some(), "{:?}", stage.model.message);
+        Screen(stage)
     }
 }
+
+/// A screen, and all that comes of what is done on it.
+pub(in crate::tui) struct Screen(pub(in crate::tui) Stage);
 
 impl Screen {
-    /// With a file open, and all its events run.
-    pub(in crate::tui) fn with(path: &str) -> Self {
-        let model = Model { size: [120, 40], ..Model::default() };
-        let mut screen = Self { model, desk: Desk::new(Choice::Reference, 1 << 20) };
-        screen.model.ask(Ask::Open(path.into()));
-        screen.settle();
-        assert!(screen.model.opened.is_some(), "{:?}", screen.model.message);
-        screen
+    pub(in crate::tui) fn model(&mut self) -> &mut Model {
+        &mut self.0.model
     }
 
-    /// Does something, and all that comes of it.
+    /// Does something.
     pub(in crate::tui) fn act(&mut self, action: Action) {
-        update::act(&mut self.model, action);
-        self.settle();
+        update::act(&mut self.0.model, action);
+        self.0.settle();
     }
 
-    /// Does what was asked, until nothing is left to do.
-    pub(in crate::tui) fn settle(&mut self) {
-        while !self.model.effects.is_empty() {
-            for effect in std::mem::take(&mut self.model.effects) {
-                let Effect::Ask(ask) = effect else { continue };
-                let mut heard = Heard::default();
-                self.desk.handle(ask, &mut heard);
-                heard.0.into_iter().for_each(|told| update::told(&mut self.model, told));
-            }
-        }
+    /// Opens another file.
+    pub(in crate::tui) fn open(&mut self, path: &str) {
+        self.0.model.ask(Ask::Open(path.into()));
+        self.0.settle();
     }
 
     /// What is said in the status line, and whether it is a complaint.
     pub(in crate::tui) fn said(&self) -> (&str, bool) {
-        self.model.message.as_ref().map_or(("", false), |message| (message.text.as_str(), message.wrong))
+        self.0.model.message.as_ref().map_or(("", false), |message| (message.text.as_str(), message.wrong))
     }
 }

@@ -3,13 +3,17 @@
 //! A key goes to what lies on top: a popup takes it first; then the actions that count where the focus is; then those that count everywhere.
 
 pub(in crate::tui) mod compare;
+mod copy;
 mod focus;
 #[cfg(test)]
 pub(in crate::tui) mod kit;
 pub(in crate::tui) mod popup;
+pub(in crate::tui) mod record;
+mod search;
 mod step;
 mod told;
 
+pub(in crate::tui) use focus::reveal;
 pub(in crate::tui) use step::{beat, go};
 pub(in crate::tui) use told::told;
 
@@ -67,8 +71,31 @@ pub(in crate::tui) fn act(model: &mut Model, action: Action) {
         | A::FocusChecks
         | A::FocusDifferences
         | A::Maximise => focus::act(model, action),
+        A::Copy => copy::copy(model),
+        A::CopyCommand => copy::command(model),
+        A::Search => popup::ask(model, Question::Search),
+        A::NextMatch => search::step(model, true),
+        A::PreviousMatch => search::step(model, false),
         A::GoTo => popup::ask(model, Question::GoTo),
         A::CompareWith => popup::ask(model, Question::CompareWith),
+        A::Record
+        | A::RecordNew
+        | A::Point
+        | A::CrossLeft
+        | A::CrossRight
+        | A::CrossUp
+        | A::CrossDown
+        | A::NudgeLeft
+        | A::NudgeRight
+        | A::NudgeUp
+        | A::NudgeDown
+        | A::Mode
+        | A::Undo
+        | A::Redo
+        | A::Checkpoint
+        | A::Event
+        | A::Drop
+        | A::Save => record::act(model, action),
         A::Suspend => model.effects.push(Effect::Suspend),
         A::Redraw => model.effects.push(Effect::Redraw),
         A::Quit | A::Leave => model.done = true,

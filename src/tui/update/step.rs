@@ -178,9 +178,13 @@ fn cancel(model: &mut Model) {
     if super::compare::cancel(model) {
         return;
     }
+    let idle = model.playing.is_none() && model.progress.is_none();
     (model.playing, model.wanted) = (None, None);
     if model.progress.is_some() {
         model.ask(Ask::Cancel);
     }
     model.message = None;
+    if idle {
+        super::record::stop(model);
+    }
 }

@@ -8,6 +8,7 @@ mod ask;
 mod camera;
 mod compare;
 mod desk;
+mod recording;
 
 use std::any::Any;
 use std::collections::VecDeque;
@@ -18,7 +19,7 @@ use std::thread;
 
 use compare::Comparer;
 
-pub(in crate::tui) use ask::{Ask, Opened, Standing, Told};
+pub(in crate::tui) use ask::{Ask, Hand, Opened, Recorded, Standing, Told};
 pub(in crate::tui) use camera::groups;
 pub(in crate::tui) use desk::{Desk, Line};
 
