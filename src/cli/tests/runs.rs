@@ -57,6 +57,8 @@ fn a_replay_stops_where_it_is_told() {
     assert_eq!((&stages[0]["skipped"], &stages[3]["skipped"]), (&Value::Null, &"until".into()));
     assert!(complaint(&["replay", &script, "--until", "6"]).contains("there is no event 6; there are 6"));
     assert!(complaint(&["replay", &script, "--until", "2.XY"]).contains("XY"));
+    assert_eq!(events("start").as_array().map(Vec::len), Some(0));
+    assert!(complaint(&["replay", &script, "--until", "18446744073709551615"]).contains("not EVENT"));
     assert!(complaint(&["replay", &script, "--until", "x"]).contains("4 or 4.MC"));
 }
 
