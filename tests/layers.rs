@@ -106,7 +106,7 @@ const BANS: &[Ban] = &[
     Ban {
         path: "std::env::var_os",
         but: &["assets/cache.rs", "tui/environment.rs"],
-        why: "LANCET_CACHE_DIR, and how a screen looks, are all that the environment decides",
+        why: "where meshes and drafts are kept, and how a screen looks, are all that the environment decides",
     },
     Ban { path: "std::env::var", but: &[], why: "an environment must not decide what a run does" },
     Ban {

@@ -2,12 +2,14 @@
 //!
 //! A file is written whole or not at all: under another name beside its place first, then renamed.
 
+use std::cmp::Reverse;
 use std::ffi::OsString;
 use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::{Path, PathBuf, absolute};
 
 use super::error::{AssetError, Fault, FaultKind};
+use crate::recording::SceneRef;
 
 /// The bytes of a file; refuses what is none, such as a device without an end.
 pub fn read_file(path: &Path) -> Result<Vec<u8>, AssetError> {
@@ -36,6 +38,38 @@ fn make_folder(path: &Path) -> io::Result<()> {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).map_or(Ok(()), fs::create_dir_all)
 }
 
+/// Removes a file. One that is not there is removed already.
+pub fn remove_file(path: &Path) -> Result<(), AssetError> {
+    match fs::remove_file(path) {
+        Err(e) if e.kind() != io::ErrorKind::NotFound => Err(AssetError::io(path, &e)),
+        _ => Ok(()),
+    }
+}
+
+/// The path of a folder without links and `..`, so that paths relative to it lead where they seem to. It is made if it is not there.
+pub fn real_folder(folder: &Path) -> Result<PathBuf, AssetError> {
+    let real = fs::create_dir_all(folder).and_then(|()| fs::canonicalize(folder));
+    real.map_err(|e| AssetError::io(folder, &e))
+}
+
+/// A scene that a file in `folder` names, as a file at `path` has to name it.
+pub fn moved(scene: &SceneRef, folder: &Path, path: &Path) -> Result<SceneRef, AssetError> {
+    let whole = |folder: &Path| {
+        let here = folder.as_os_str().is_empty();
+        absolute(if here { Path::new(".") } else { folder }).map_err(|e| AssetError::io(folder, &e))
+    };
+    Ok(scene.moved(&whole(folder)?, &whole(path.parent().unwrap_or(Path::new("")))?))
+}
+
+/// The files of a folder, without those in folders in it, whatever was written last first; none where there is no such folder.
+pub fn newest_files(folder: &Path) -> Result<Vec<PathBuf>, AssetError> {
+    let changed = |path: &PathBuf| fs::metadata(path).and_then(|file| file.modified()).ok();
+    let mut files = list_files(folder)?;
+    files.retain(|path| path.parent() == Some(folder));
+    files.sort_by_cached_key(|path| Reverse(changed(path)));
+    Ok(files)
+}
+
 /// Whether a path is a file.
 pub fn is_file(path: &Path) -> bool {
     path.is_file()
@@ -54,6 +88,20 @@ pub fn list_files(folder: &Path) -> Result<Vec<PathBuf>, AssetError> {
     }
     files.sort();
     Ok(files)
+}
+
+/// What lies in a folder, sorted by name, and whether it is a folder itself.
+pub fn list_folder(folder: &Path) -> Result<Vec<(PathBuf, bool)>, AssetError> {
+    let failed = |e: io::Error| AssetError::io(folder, &e);
+    let entries = fs::read_dir(folder).map_err(failed)?;
+    let entries = entries.map(|entry| entry.map(|entry| entry.path()).map_err(failed));
+    let mut paths = entries.collect::<Result<Vec<_>, _>>()?;
+    paths.sort();
+    let with_kind = |path: PathBuf| {
+        let is_folder = path.is_dir();
+        (path, is_folder)
+    };
+    Ok(paths.into_iter().map(with_kind).collect())
 }
 
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), AssetError> {
@@ -85,6 +133,8 @@ mod tests {
         let listed = list_files(folder.path()).expect("listed");
         assert_eq!(listed, [at("a/c.txt"), at("a/d/z.txt"), at("b.txt")], "and no part is left over");
         assert!(list_files(&at("nowhere")).expect("none").is_empty());
+        assert_eq!(list_folder(folder.path()).expect("listed"), [(at("a"), true), (at("b.txt"), false)]);
+        assert!(list_folder(&at("nowhere")).is_err());
     }
 
     #[test]

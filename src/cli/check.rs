@@ -23,7 +23,7 @@ struct Answer<'a> {
 
 pub(super) fn run(typed: &Check, console: &mut Console<'_>) -> Done {
     let cache = CacheOptions::from_environment();
-    let loaded = assets::open(&scene(&typed.mesh), Path::new(""), &cache)?;
+    let loaded = assets::open(&SceneRef::typed(&typed.mesh), Path::new(""), &cache)?;
     let facts = assets::inspect(&loaded.mesh);
     let answer = Answer {
         mesh: &typed.mesh,
@@ -37,11 +37,4 @@ pub(super) fn run(typed: &Check, console: &mut Console<'_>) -> Done {
         assets::inspect::write_facts(&facts, &loaded.notes, &mut console.out)?;
     }
     Ok(Status::Verified)
-}
-
-/// A built-in scene by its name, a scene by its extension, else a mesh.
-pub(super) fn scene(typed: &str) -> SceneRef {
-    let is_json = Path::new(typed).extension().is_some_and(|e| e.eq_ignore_ascii_case("json"));
-    let file = || if is_json { SceneRef::File(typed.into()) } else { SceneRef::Mesh(typed.into()) };
-    SceneRef::parse_builtin(typed).unwrap_or_else(file)
 }

@@ -9,9 +9,9 @@ use serde_json::json;
 
 use super::args::Render;
 use super::failure::Failure;
-use super::{Console, Done, Status, check, json, pixels, show};
+use super::{Console, Done, Status, json, pixels, show};
 use crate::canvas::Adapter;
-use crate::recording::{Script, ScriptError};
+use crate::recording::{SceneRef, Script, ScriptError};
 use crate::replay::{Case, Options, Shot};
 use crate::report::Pass;
 
@@ -69,7 +69,7 @@ fn script(typed: &Render) -> Result<String, Failure> {
     let settings = typed.set.iter().map(|setting| (setting.name.clone(), setting.value.clone()));
     let [camera, settings] = [camera.collect(), settings.collect::<serde_json::Map<_, _>>()];
     let script = json!({
-        "version": 1, "scene": check::scene(&typed.scene), "viewport": typed.size.0,
+        "version": 1, "scene": SceneRef::typed(&typed.scene), "viewport": typed.size.0,
         "events": [{ "camera": serde_json::Value::Object(camera) }, { "set": settings }],
     });
     serde_json::to_string(&script).map_err(Failure::new)

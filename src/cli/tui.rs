@@ -11,7 +11,7 @@ pub(super) fn run(typed: &Tui, console: &mut Console<'_>) -> Done {
     use crate::tui::config::Config;
     use crate::tui::terminal::Terminal;
     use crate::tui::theme::Base;
-    use crate::tui::{self, Start};
+    use crate::tui::{self, Drafts, Start};
 
     let mut config = Config::load(typed.config.as_deref(), &tui::action_names()).map_err(Failure::new)?;
     let base = typed.theme.map(|ground| match ground {
@@ -23,6 +23,7 @@ pub(super) fn run(typed: &Tui, console: &mut Console<'_>) -> Done {
         recording: typed.recording.clone(),
         renderer: pixels::choice(typed.renderer),
         budget_bytes: (typed.budget as usize) << 20,
+        drafts: Drafts::from_environment(),
         config,
     };
     if let Some(target) = &typed.screen {

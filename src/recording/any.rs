@@ -3,7 +3,7 @@
 use crate::engine::wound::WoundEvent;
 use crate::engine::{Event, Input};
 
-use super::{Recording, SceneRef};
+use super::{Recording, SceneRef, rules};
 
 /// The engines' names, as they stand in files and scripts; the first is a script's default.
 pub const ENGINES: &[&str] = &[WoundEvent::ENGINE];
@@ -64,7 +64,29 @@ macro_rules! each {
     };
 }
 
+/// Begins a recording.
+struct Begin {
+    scene: SceneRef,
+    viewport: [u32; 2],
+}
+
+impl ForEngine for Begin {
+    type Output = AnyRecording;
+
+    fn run<E: Recorded>(self) -> AnyRecording {
+        let Self { scene, viewport } = self;
+        let (scene_hash, mesh_hash) = ([0; 32], [0; 32]);
+        E::wrap(Recording { scene, scene_hash, mesh_hash, viewport, seed: 0, events: Vec::new() })
+    }
+}
+
 impl AnyRecording {
+    /// A recording of nothing yet, for an engine by its name. Its hashes are not known. An error says why there is none.
+    pub fn begin(engine: &str, scene: SceneRef, viewport: [u32; 2]) -> Result<Self, String> {
+        rules::viewport(viewport).map_err(|what| format!("viewport: {what}"))?;
+        for_engine(engine, Begin { scene, viewport }).ok_or_else(|| format!("there is no engine {engine:?}"))
+    }
+
     /// Does something that holds for every engine.
     pub fn visit<V: Visit>(&self, job: V) -> V::Output {
         each!(self, recording => job.visit(recording))

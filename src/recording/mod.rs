@@ -32,6 +32,7 @@ pub use error::{Cause, ReadError, ScriptError, WriteError};
 pub use format::{is_script, read, to_bytes, write};
 pub use frame::VERSION;
 pub use reduce::{Progress, reduce};
+pub use rules::VIEWPORT;
 pub use scene_ref::{InlineMesh, SceneRef};
 pub use script::{Script, script_schema};
 pub use summary::{Summary, summary};

@@ -4,6 +4,8 @@ use rustc_hash::FxHashSet;
 
 use crate::engine::{Control, Event};
 
+/// Width and height of a view where nobody says otherwise.
+pub const VIEWPORT: [u32; 2] = [1280, 720];
 /// The largest side of a view, pixels.
 pub(super) const MAX_SIDE: u32 = 16_384;
 /// The longest name of a checkpoint.

@@ -49,6 +49,13 @@ impl SceneRef {
         Some(Self::Builtin(name.to_owned()))
     }
 
+    /// What a person types for a scene: `builtin:NAME`, a scene description that ends in `.json`, or else a mesh.
+    pub fn typed(text: &str) -> Self {
+        let is_description = Path::new(text).extension().is_some_and(|end| end.eq_ignore_ascii_case("json"));
+        let file = || if is_description { Self::File(text.into()) } else { Self::Mesh(text.into()) };
+        Self::parse_builtin(text).unwrap_or_else(file)
+    }
+
     /// The same scene, seen from another folder. Both folders are absolute; a scene that is no file stays as it is.
     #[must_use]
     pub fn moved(&self, from: &Path, to: &Path) -> Self {

@@ -11,7 +11,7 @@ use serde::de::{DeserializeOwned, Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
 use super::any::{ForEngine, for_engine};
-use super::rules::{self, MAX_SIDE, Names};
+use super::rules::{self, MAX_SIDE, Names, VIEWPORT};
 use super::{AnyRecording, ENGINES, Keyed, Recorded, Recording, SceneRef, ScriptError};
 use crate::engine::Event;
 
@@ -218,7 +218,7 @@ struct Viewport([u32; 2]);
 
 impl Default for Viewport {
     fn default() -> Self {
-        Self([1280, 720])
+        Self(VIEWPORT)
     }
 }
 

@@ -18,6 +18,7 @@
 mod digest;
 mod open;
 mod pixels;
+mod save;
 mod session;
 mod stages;
 #[cfg(test)]
@@ -26,14 +27,15 @@ mod timeline;
 #[cfg(test)]
 pub(crate) mod toy;
 
+pub use crate::engine::Input;
 pub use open::{Case, OpenError, open, open_file, read};
+pub use save::{SaveError, require_form, save};
 pub use session::Session;
 pub use stages::{Plant, Planting};
 
 use crate::canvas::RenderError;
 use crate::canvas::frame::{Frame, Orbit, View};
 use crate::canvas::image::{Image, MapId};
-use crate::engine::Input;
 use crate::mesh::Mesh;
 use crate::report::{EventDelta, EventReport, Finding, RunReport, StateReport};
 
@@ -150,6 +152,8 @@ pub trait Replay: Send {
     fn sizes(&self) -> Vec<(&'static str, u64)>;
     /// Where the recording looks from now, where the engine has a camera.
     fn orbit(&self) -> Option<Orbit>;
+    /// The mode in force.
+    fn mode(&self) -> &'static str;
     /// Bytes that are kept for seeking, beside what undo and redo need.
     fn kept_bytes(&self) -> usize;
     /// Renders the state as it is now. None without a renderer.

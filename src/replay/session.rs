@@ -443,6 +443,7 @@ impl<E: Engine> Replay for Session<E> {
             Arc::make_mut(&mut self.events).truncate(events);
             self.reports.truncate(events);
             self.timeline.truncate(events);
+            self.finding = self.finding.take().filter(|finding| finding.event.is_some_and(|at| at < events));
             (self.live, self.end) = (true, None);
         }
     }
@@ -489,6 +490,10 @@ impl<E: Engine> Replay for Session<E> {
 
     fn orbit(&self) -> Option<Orbit> {
         E::orbit(&self.state)
+    }
+
+    fn mode(&self) -> &'static str {
+        E::mode(&self.state)
     }
 
     fn kept_bytes(&self) -> usize {

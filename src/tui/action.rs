@@ -74,11 +74,16 @@ pub(in crate::tui) enum Action {
     ResetView,
     SaveFrame,
     Record,
+    RecordNew,
     Point,
     CrossLeft,
     CrossRight,
     CrossUp,
     CrossDown,
+    NudgeLeft,
+    NudgeRight,
+    NudgeUp,
+    NudgeDown,
     Mode,
     Undo,
     Redo,
@@ -95,6 +100,7 @@ pub(in crate::tui) enum Action {
     Suspend,
     Redraw,
     Quit,
+    Leave,
 }
 
 /// Where an action's keys count.
@@ -207,19 +213,24 @@ pub(in crate::tui) const ACTIONS: &[Row] = actions! {
     PanDown "pan-down" Picture ["alt-down"] "Move down in the enlarged picture";
     ResetView "reset-view" Always ["0"] "Look from where the recording does, at all of it" => "replay {rec} --until {place} --frame {png}";
     SaveFrame "save-picture" Always ["P"] "Write the picture as PNG" => "replay {rec} --until {place} --frame {png}";
-    Record "record" Always ["r"] "Record: go on from here, or begin anew on a scene" => "pack {script} -o {rec}";
+    Record "record" Always ["r"] "Record on from here, in a copy; or stop recording" => "pack {script} -o {rec}";
+    RecordNew "record-new" Always ["ctrl-n"] "Record anew, on a scene" => "pack {script} -o {rec}";
     Point "point" Recording ["enter"] "Point at the cross-hair: two points make a cut" => "pack {script} -o {rec}";
     CrossLeft "cross-left" Recording ["left"] "Move the cross-hair to the left";
     CrossRight "cross-right" Recording ["right"] "Move the cross-hair to the right";
     CrossUp "cross-up" Recording ["up"] "Move the cross-hair up";
     CrossDown "cross-down" Recording ["down"] "Move the cross-hair down";
+    NudgeLeft "nudge-left" Recording ["shift-left"] "Move the cross-hair by a pixel of the recorded view to the left";
+    NudgeRight "nudge-right" Recording ["shift-right"] "Move it by a pixel to the right";
+    NudgeUp "nudge-up" Recording ["shift-up"] "Move it by a pixel up";
+    NudgeDown "nudge-down" Recording ["shift-down"] "Move it by a pixel down";
     Mode "mode" Recording ["e"] "Choose the next mode" => "pack {script} -o {rec}";
     Undo "undo" Recording ["u"] "Undo the last edit" => "pack {script} -o {rec}";
     Redo "redo" Recording ["ctrl-r"] "Do it again" => "pack {script} -o {rec}";
     Checkpoint "checkpoint" Recording ["a"] "Set a checkpoint with a name" => "pack {script} -o {rec}";
     Event "event" Recording ["n"] "Type an event as it stands in a script" => "pack {script} -o {rec}";
     Drop "drop" Recording ["backspace"] "Drop the last event" => "pack {script} -o {rec}";
-    Save "save" Recording ["ctrl-s"] "Save the recording" => "pack {script} -o {rec}";
+    Save "save" Always ["ctrl-s"] "Save the recording" => "pack {script} -o {rec}";
     Open "open" Always ["ctrl-o"] "Open a recording" => "replay {rec} --json -";
     Help "help" Always ["?", "f1"] "Show all keys";
     Palette "palette" Always [":"] "Find an action by its name";
@@ -228,13 +239,19 @@ pub(in crate::tui) const ACTIONS: &[Row] = actions! {
     PreviousMatch "previous-match" Always ["N"] "Go to the match before";
     Suspend "suspend" Always ["ctrl-z"] "Go to the background";
     Redraw "redraw" Always ["ctrl-l"] "Draw the screen anew";
-    Quit "quit" Always ["q", "ctrl-c"] "Leave";
+    Quit "quit" Always ["q"] "Leave; asks what becomes of a recording that is not saved";
+    Leave "leave" Always ["ctrl-c"] "Leave at once; a recording that is not saved stays as a draft";
 };
 
 impl Action {
     /// Its row. The rows are in the order of the actions, which a test sees to.
     pub(in crate::tui) fn row(self) -> &'static Row {
         &ACTIONS[self as usize]
+    }
+
+    /// Whether its keys count whatever lies over the panes.
+    pub(in crate::tui) fn passes_popups(self) -> bool {
+        matches!(self, Self::Suspend | Self::Redraw | Self::Leave)
     }
 }
 

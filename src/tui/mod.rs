@@ -14,6 +14,7 @@ mod action;
 pub mod colour;
 mod compare;
 pub mod config;
+mod edit;
 pub mod environment;
 mod events;
 pub mod image;
@@ -38,6 +39,7 @@ mod update;
 mod view;
 mod worker;
 
+pub use record::Drafts;
 pub use run::{Start, run};
 pub use stage::Stage;
 

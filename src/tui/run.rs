@@ -14,6 +14,7 @@ use super::config::Config;
 use super::environment::Environment;
 use super::keys::Keys;
 use super::model::{Effect, Model};
+use super::record::Drafts;
 use super::terminal::{self, Terminal};
 use super::theme::Theme;
 use super::worker::{Ask, Desk, Told, Worker};
@@ -29,6 +30,8 @@ pub struct Start {
     pub renderer: Choice,
     /// Bytes that going back may take, beside what undo and redo need.
     pub budget_bytes: usize,
+    /// Where what is recorded is kept until it is saved.
+    pub drafts: Drafts,
     /// The user's settings.
     pub config: Config,
 }
@@ -72,14 +75,15 @@ impl App {
         let size = terminal.size()?;
         let mut model = Model { size: [size.width, size.height], ..Model::default() };
         start.recording.into_iter().for_each(|path| model.ask(Ask::Open(path)));
+        model.ask(Ask::Drafts);
         // The first frame comes before anything that takes time.
         terminal.draw(|frame| view::draw(&model, &theme, &keys, frame.buffer_mut()))?;
         let (send, news) = channel();
         let typed = send.clone();
         terminal::listen(move |event| typed.send(News::Typed(event)).is_ok())?;
-        let (choice, budget) = (start.renderer, start.budget_bytes);
+        let (choice, budget, drafts) = (start.renderer, start.budget_bytes, start.drafts);
         let worker = Worker::start(
-            move || Desk::new(choice, budget),
+            move || Desk::new(choice, budget).with_drafts(drafts.clone()),
             // A screen that is gone is noticed when the next thing to do is looked for.
             move |told| drop(send.send(News::Told(told))),
         )?;

@@ -13,6 +13,7 @@ use ratatui::widgets::Widget;
 use super::action::Action;
 use super::keys::Keys;
 use super::model::{Model, Pane};
+use super::record;
 use super::theme::{Role, Theme};
 use crate::report::printable;
 
@@ -31,6 +32,9 @@ pub(super) fn title(model: &Model, theme: &Theme, area: Rect, buffer: &mut Buffe
         spans.push(Span::styled(format!(" · {} ", opened.engine), faint));
         spans.push(Span::raw(format!(" {}/{} ", model.place.events, opened.lines.len())));
     }
+    if model.kept.unsaved {
+        spans.push(Span::styled("not saved ", theme.style(Role::Warn)));
+    }
     if let Some(pause) = model.playing {
         spans.push(Span::styled(format!("▶ {} ms ", pause.as_millis()), theme.style(Role::Accent)));
     }
@@ -44,13 +48,14 @@ pub(super) fn title(model: &Model, theme: &Theme, area: Rect, buffer: &mut Buffe
 
 pub(super) fn status(model: &Model, theme: &Theme, keys: &Keys, area: Rect, buffer: &mut Buffer) {
     buffer.set_style(area, theme.style(Role::Status));
+    let mut spans = record::status(model, theme);
     if let Some(message) = &model.message {
         let role = if message.wrong { Role::Bad } else { Role::Text };
         let mark = if message.wrong { format!("{} ", Role::Bad.mark()) } else { String::new() };
         let text = format!("{mark}{}", printable(&message.text));
-        return Line::styled(text, theme.style(role)).render(area, buffer);
+        spans.push(Span::styled(text, theme.style(role)));
+        return Line::from(spans).render(area, buffer);
     }
-    let mut spans = Vec::new();
     for action in hints(model) {
         let Some(key) = keys.first(*action) else { continue };
         spans.push(Span::styled(format!("{key} "), theme.style(Role::Key)));

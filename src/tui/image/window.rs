@@ -104,6 +104,16 @@ impl Fit {
         (0..2).all(|k| (0.0..f64::from(self.pane[k])).contains(&at[k])).then_some(at)
     }
 
+    /// Where in the pane something lies that is at shares of the picture's width and height. None if it is not shown.
+    pub fn share_to_pane(&self, share: [f64; 2]) -> Option<[f64; 2]> {
+        self.to_pane([0, 1].map(|k| share[k] * f64::from(self.picture[k])))
+    }
+
+    /// What so many of the pane's pixels are, across and down, in shares of the picture's width and height.
+    pub fn shares(&self, pixels: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|k| pixels[k] / (self.scale * f64::from(self.picture[k])))
+    }
+
     /// Pixels of the picture that are shown as one, in both directions; 1 where it is magnified.
     pub fn reduction(&self) -> u32 {
         (1.0 / self.scale).round().max(1.0) as u32

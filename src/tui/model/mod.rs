@@ -2,13 +2,15 @@
 //!
 //! The reports of the events that have run are all there, so that walking among them shows each at once; the worker follows with mesh and picture.
 
+mod memory;
 mod place;
 mod timing;
 
 use std::sync::Arc;
 use std::time::Duration;
 
-pub(in crate::tui) use place::Place;
+pub(in crate::tui) use memory::Memory;
+pub(in crate::tui) use place::{Place, ran};
 pub(in crate::tui) use timing::Timing;
 
 use crate::canvas::frame::Orbit;
@@ -17,7 +19,7 @@ use crate::tui::compare::Differences;
 use crate::tui::list::List;
 use crate::tui::picture::PictureState;
 use crate::tui::popups::Popup;
-use crate::tui::record::Recorder;
+use crate::tui::record::{Kept, Recorder};
 use crate::tui::worker::{Ask, Opened, Standing};
 
 /// A part of the screen that can be focused.
@@ -143,8 +145,12 @@ pub(in crate::tui) struct Model {
     pub(in crate::tui) differences: Option<Differences>,
     /// The recording that is being made.
     pub(in crate::tui) recorder: Option<Recorder>,
+    /// What becomes of what was recorded.
+    pub(in crate::tui) kept: Kept,
     /// What lies over the panes.
     pub(in crate::tui) popup: Option<Popup>,
+    /// What was done before, and is offered again.
+    pub(in crate::tui) memory: Memory,
     /// What was searched for.
     pub(in crate::tui) search: String,
     /// What is said in the status line.

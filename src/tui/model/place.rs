@@ -56,7 +56,7 @@ impl Place {
 }
 
 /// The rows of the stages that ran.
-fn ran(report: &EventReport) -> Vec<usize> {
+pub(in crate::tui) fn ran(report: &EventReport) -> Vec<usize> {
     (0..report.stages.len()).filter(|row| report.stages[*row].skipped.is_none()).collect()
 }
 

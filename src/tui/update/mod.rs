@@ -3,6 +3,10 @@
 //! A key goes to what lies on top: a popup takes it first; then the actions that count where the focus is; then those that count everywhere.
 
 mod focus;
+#[cfg(test)]
+pub(in crate::tui) mod kit;
+pub(in crate::tui) mod popup;
+pub(in crate::tui) mod record;
 mod step;
 mod told;
 
@@ -11,6 +15,7 @@ pub(in crate::tui) use told::told;
 
 use crate::tui::action::Action;
 use crate::tui::model::{Effect, Model};
+use crate::tui::popups::Question;
 use crate::tui::worker::Ask;
 
 /// Asks for the picture that is wanted, if it is not the one that is there or was asked for.
@@ -60,9 +65,28 @@ pub(in crate::tui) fn act(model: &mut Model, action: Action) {
         | A::FocusChecks
         | A::FocusDifferences
         | A::Maximise => focus::act(model, action),
+        A::GoTo => popup::ask(model, Question::GoTo),
+        A::Record
+        | A::RecordNew
+        | A::Point
+        | A::CrossLeft
+        | A::CrossRight
+        | A::CrossUp
+        | A::CrossDown
+        | A::NudgeLeft
+        | A::NudgeRight
+        | A::NudgeUp
+        | A::NudgeDown
+        | A::Mode
+        | A::Undo
+        | A::Redo
+        | A::Checkpoint
+        | A::Event
+        | A::Drop
+        | A::Save => record::act(model, action),
         A::Suspend => model.effects.push(Effect::Suspend),
         A::Redraw => model.effects.push(Effect::Redraw),
-        A::Quit => model.done = true,
+        A::Quit | A::Leave => model.done = true,
         other => model.complain(format!("{} is not there yet", other.row().name)),
     }
 }

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use crate::report::EventReport;
 use crate::tui::action::Action;
-use crate::tui::model::{Model, Pace, Place};
+use crate::tui::model::{Model, Pace, Place, ran};
 use crate::tui::worker::Ask;
 
 /// The pauses that playing can have, milliseconds.
@@ -46,6 +46,50 @@ pub(in crate::tui) fn go(model: &mut Model, place: Place) {
         model.ask(Ask::Go(place));
     }
     model.follow();
+}
+
+/// Goes where an answer says: `12` is event 12, `12.MC` that stage of it, `12.1` the first of its stages that ran.
+pub(super) fn go_to(model: &mut Model, text: &str) -> Result<(), String> {
+    let (number, stage) = text.split_once('.').map_or((text, None), |(number, stage)| (number, Some(stage)));
+    let last = model.len().checked_sub(1).ok_or("there are no events yet")?;
+    let event: Option<usize> = number.trim().parse().ok().filter(|event| *event <= last);
+    let event =
+        event.ok_or_else(|| format!("there is no event `{}`; there are 0 to {last}", number.trim()))?;
+    let place = match stage {
+        None => Place::after(event + 1),
+        Some(stage) => within(model, event, stage.trim())?,
+    };
+    go(model, place);
+    Ok(())
+}
+
+/// After a stage of an event, by name or by its number among those that ran.
+fn within(model: &Model, event: usize, stage: &str) -> Result<Place, String> {
+    let unknown =
+        || format!("event {event} has not run yet, so its stages are not known: go to `{event}` first");
+    let report = model.report(event).ok_or_else(unknown)?;
+    let rows = ran(report);
+    let named = rows.iter().find(|row| report.stages[**row].id.eq_ignore_ascii_case(stage));
+    let numbered = || rows.get(stage.parse::<usize>().ok()?.checked_sub(1)?);
+    let row = *named.or_else(numbered).ok_or_else(|| no_stage(report, stage, &rows))?;
+    // After the last stage there is what the session does with the work: the event is over.
+    let over = rows.last() == Some(&row);
+    Ok(if over { Place::after(event + 1) } else { Place { events: event, stage: Some(row) } })
+}
+
+/// Why an event has no such stage, and which it has.
+fn no_stage(report: &EventReport, stage: &str, rows: &[usize]) -> String {
+    let event = report.index;
+    let skipped = report.stages.iter().find(|row| row.id.eq_ignore_ascii_case(stage));
+    let why = match skipped.and_then(|row| row.skipped.as_ref()) {
+        Some(reason) => format!("stage {stage} of event {event} was skipped: {reason}"),
+        None => format!("event {event} has no stage `{stage}`"),
+    };
+    let ran: Vec<&str> = rows.iter().map(|row| report.stages[*row].id.as_str()).collect();
+    match ran.is_empty() {
+        true => format!("{why}; none ran"),
+        false => format!("{why}; there are 1 to {}: {}", ran.len(), ran.join(", ")),
+    }
 }
 
 fn previous(model: &mut Model) {
@@ -131,12 +175,13 @@ pub(in crate::tui) fn beat(model: &mut Model) {
 }
 
 fn cancel(model: &mut Model) {
-    if model.popup.take().is_some() {
-        return;
-    }
+    let idle = model.playing.is_none() && model.progress.is_none();
     (model.playing, model.wanted) = (None, None);
     if model.progress.is_some() {
         model.ask(Ask::Cancel);
     }
     model.message = None;
+    if idle {
+        super::record::stop(model);
+    }
 }

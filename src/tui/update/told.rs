@@ -1,5 +1,6 @@
 //! What the worker tells.
 
+use super::record;
 use crate::tui::action::Action;
 use crate::tui::model::{Model, Place, Progress};
 use crate::tui::worker::{Ask, Opened, Told};
@@ -10,11 +11,18 @@ pub(in crate::tui) fn told(model: &mut Model, told: Told) {
         Told::Opened(opened) => open(model, *opened),
         Told::Report(report) => {
             model.timing.add(&report);
+            record::reported(model, &report);
             model.reports.push(report);
         }
         Told::End(end) => model.end = Some(*end),
         Told::Finding(finding) => model.finding = Some(*finding),
-        Told::At(standing) => model.standing = Some(*standing),
+        Told::At(standing) => {
+            model.standing = Some(*standing);
+            record::stood(model);
+        }
+        Told::Recorded(recorded) => record::recorded(model, *recorded),
+        Told::Saved(path) => record::saved(model, path),
+        Told::Drafts(drafts) => record::drafts(model, drafts),
         Told::Progress { what, done, of } => model.progress = Some(Progress { what, done, of }),
         Told::Idle { urgent } => idle(model, urgent),
         Told::Picture(picture) => model.picture.got = Some(*picture),
@@ -40,15 +48,18 @@ pub(in crate::tui) fn told(model: &mut Model, told: Told) {
 
 /// What ran stays on the screen; nothing further can be asked about it.
 fn broken(model: &mut Model, why: &str) {
-    (model.standing, model.playing, model.wanted) = (None, None, None);
+    (model.standing, model.playing, model.wanted, model.recorder) = (None, None, None, None);
     model.complain(format!("a bug of lancet's: panicked: {why}; open the recording again to go on"));
 }
 
 fn open(model: &mut Model, opened: Opened) {
-    let Model { size, focus, maximised, pace, stops, effects, asked, answered, .. } = std::mem::take(model);
-    let kept = Model { size, focus, maximised, pace, stops, effects, asked, answered, ..Model::default() };
-    *model = Model { opened: Some(opened), ..kept };
+    let Model { size, focus, maximised, pace, stops, memory, effects, asked, answered, kept, .. } =
+        std::mem::take(model);
+    let stays =
+        Model { size, focus, maximised, pace, stops, memory, effects, asked, answered, ..Model::default() };
+    *model = Model { opened: Some(opened), ..stays };
     model.ask(Ask::Learn);
+    record::opened(model, kept);
 }
 
 /// Where the worker got to by itself, or was stopped, is where the screen goes too, unless it has been sent on since.

@@ -4,8 +4,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::canvas::frame::Orbit;
+use crate::replay::Input;
 use crate::report::{EventReport, Finding, StateReport, Stop};
 use crate::tui::model::Place;
+use crate::tui::record::Draft;
 use crate::tui::shot::{Picture, Shot};
 
 /// Something to do.
@@ -23,19 +25,52 @@ pub(in crate::tui) enum Ask {
     Shoot(Box<Shot>),
     /// Look at the invariants of the whole state, as it is now.
     Check,
+    /// Begin a recording.
+    Begin {
+        /** The scene, as a person types it. */
+        scene: String,
+        /** Width and height of its view. */
+        viewport: [u32; 2],
+    },
+    /// Record on from after so many events, in a copy without those that follow.
+    GoOn(usize),
+    /// Record something at the end.
+    Record(Hand),
+    /// Drop the last event.
+    DropLast,
+    /// Save the recording to a file.
+    Save(PathBuf),
+    /// Tell what unsaved recordings there are.
+    Drafts,
     /// Stop what is being done, if anything is.
     Cancel,
+}
+
+/// Something to record. What it is depends on the state that it is done to, which the worker knows.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::tui) enum Hand {
+    /// Pointed at a position of the view, when looking from here. A view that is another than the recorded one is recorded first.
+    Point {
+        /** The position, pixels. */
+        at: [f64; 2],
+        /** Where from, if not from where the recording looks. */
+        from: Option<Orbit>,
+    },
+    /// Went on to the next mode.
+    NextMode,
+    /// Anything else.
+    Other(Input),
 }
 
 impl Ask {
     /// Whether it comes before pictures, and before what nobody waits for.
     pub(in crate::tui) fn is_urgent(&self) -> bool {
-        !matches!(self, Self::Shoot(_) | Self::Learn)
+        !matches!(self, Self::Shoot(_) | Self::Learn | Self::Drafts)
     }
 
     /// Whether it puts an end to what is being done.
     pub(in crate::tui) fn interrupts(&self) -> bool {
-        !matches!(self, Self::Shoot(_) | Self::Check | Self::Learn)
+        !matches!(self, Self::Shoot(_) | Self::Check | Self::Learn | Self::Drafts)
     }
 }
 
@@ -91,12 +126,33 @@ pub(in crate::tui) enum Told {
     Picture(Box<Picture>),
     /// The invariants of the whole state.
     Checked(Box<StateReport>),
+    /// What is recorded, up to which event it is as before, and what comes after that.
+    Recorded(Box<Recorded>),
+    /// It is saved.
+    Saved(PathBuf),
+    /// The unsaved recordings, the newest first.
+    Drafts(Vec<Draft>),
     /// A run stopped at an event, for this reason.
     Stopped(String),
     /// The program broke one of its own assertions, and what was open is closed.
     Broken(String),
     /// Something went wrong: what, and why.
     Failed(String),
+}
+
+/// A change of the recording.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(in crate::tui) struct Recorded {
+    /// How many events are as before.
+    pub(in crate::tui) kept: usize,
+    /// Those after them, as they stand in a script.
+    pub(in crate::tui) lines: Vec<String>,
+    /// Where the last of them pointed at.
+    pub(in crate::tui) pointed: Option<[f64; 2]>,
+    /// Whether something else was shown until now, and recording begins with it.
+    pub(in crate::tui) begins: bool,
+    /// Whether there is anything that is not saved.
+    pub(in crate::tui) unsaved: bool,
 }
 
 /// Where the worker is, and what there is.
@@ -110,6 +166,8 @@ pub(in crate::tui) struct Standing {
     pub(in crate::tui) sizes: Vec<(&'static str, u64)>,
     /// Where the recording looks from.
     pub(in crate::tui) orbit: Option<Orbit>,
+    /// The mode in force.
+    pub(in crate::tui) mode: &'static str,
     /// Bytes that are kept for seeking.
     pub(in crate::tui) kept_bytes: usize,
 }

@@ -9,11 +9,13 @@ use std::time::Instant;
 
 use super::ask::{Ask, Opened, Standing, Told};
 use super::camera;
+use super::recording::{self, Making};
 use crate::canvas::Studio;
 use crate::render::{self, Choice};
 use crate::replay::{Case, Options, Replay};
 use crate::report::{EventReport, Stop};
 use crate::tui::model::Place;
+use crate::tui::record::Drafts;
 use crate::tui::shot::{Picture, Shot};
 
 /// The way back to the screen.
@@ -26,17 +28,22 @@ pub(in crate::tui) trait Line {
     fn is_wanted(&mut self) -> bool;
 }
 
+/// What is said where something should be open.
+const NOTHING: &str = "no recording is open";
+
 /// What is open.
-struct Open {
-    case: Case,
-    replay: Box<dyn Replay>,
-    place: Place,
+pub(super) struct Open {
+    pub(super) case: Case,
+    pub(super) replay: Box<dyn Replay>,
+    pub(super) place: Place,
     /// The report of the event that is held, as far as it ran.
-    within: Option<Arc<EventReport>>,
+    pub(super) within: Option<Arc<EventReport>>,
     /// How many events' reports were told.
-    told: usize,
-    found: bool,
-    ended: bool,
+    pub(super) told: usize,
+    pub(super) found: bool,
+    pub(super) ended: bool,
+    /// What is kept of it while it is recorded.
+    pub(super) making: Option<Making>,
 }
 
 /// See the module.
@@ -44,13 +51,20 @@ pub(in crate::tui) struct Desk {
     choice: Choice,
     budget_bytes: usize,
     studio: Option<Box<dyn Studio>>,
+    drafts: Drafts,
     open: Option<Open>,
 }
 
 impl Desk {
     /// A desk with nothing on it. The renderer is opened with the first recording.
     pub(in crate::tui) fn new(choice: Choice, budget_bytes: usize) -> Self {
-        Self { choice, budget_bytes, studio: None, open: None }
+        Self { choice, budget_bytes, studio: None, drafts: Drafts::default(), open: None }
+    }
+
+    /// The same, which keeps what is recorded as drafts.
+    #[must_use]
+    pub(in crate::tui) fn with_drafts(self, drafts: Drafts) -> Self {
+        Self { drafts, ..self }
     }
 
     /// Does one thing.
@@ -74,22 +88,60 @@ impl Desk {
                 line.tell(Told::Checked(Box::new(state)));
                 Ok(())
             }
+            Ask::Begin { scene, viewport } => self.begin(&scene, viewport, line),
+            Ask::GoOn(events) => self.opened()?.go_on(events, line),
+            Ask::Record(hand) => {
+                let (open, drafts) = self.recorded()?;
+                open.record(hand, drafts, line)
+            }
+            Ask::DropLast => {
+                let (open, drafts) = self.recorded()?;
+                open.drop_last(drafts, line)
+            }
+            Ask::Save(path) => self.opened()?.save(&path, line),
+            Ask::Drafts => self.list_drafts(line),
             Ask::Cancel => Ok(()),
         }
     }
 
+    fn recorded(&mut self) -> Result<(&mut Open, &Drafts), String> {
+        let Self { open, drafts, .. } = self;
+        Ok((open.as_mut().ok_or(NOTHING)?, drafts))
+    }
+
+    fn list_drafts(&mut self, line: &mut dyn Line) -> Result<(), String> {
+        let making = self.open.as_ref().and_then(|open| open.making.as_ref());
+        let drafts = self.drafts.list(making.map(Making::slot))?;
+        line.tell(Told::Drafts(drafts));
+        Ok(())
+    }
+
+    fn begin(&mut self, scene: &str, viewport: [u32; 2], line: &mut dyn Line) -> Result<(), String> {
+        line.tell(Told::Progress { what: "opening", done: 0, of: 0 });
+        let case = recording::begin(scene, viewport)?;
+        self.show(case, None, line)?.tell_recording(true, line);
+        Ok(())
+    }
+
     fn opened(&mut self) -> Result<&mut Open, String> {
-        self.open.as_mut().ok_or_else(|| "no recording is open".into())
+        self.open.as_mut().ok_or_else(|| NOTHING.into())
     }
 
     fn open_file(&mut self, path: &Path, line: &mut dyn Line) -> Result<(), String> {
         line.tell(Told::Progress { what: "opening", done: 0, of: 0 });
         let case = Case::open(path).map_err(|error| error.to_string())?;
-        self.show(case, Some(path), line)
+        if !self.drafts.has(path) {
+            return self.show(case, Some(path), line).map(drop);
+        }
+        // A draft is a recording that was not ended: it is gone on with.
+        let open = self.show(case, None, line)?;
+        open.making = Some(Making::taking_up(path));
+        open.tell_recording(true, line);
+        open.go(Place::after(open.replay.len()), line)
     }
 
     /// Puts a recording on the desk.
-    fn show(&mut self, case: Case, path: Option<&Path>, line: &mut dyn Line) -> Result<(), String> {
+    fn show(&mut self, case: Case, path: Option<&Path>, line: &mut dyn Line) -> Result<&mut Open, String> {
         let studio = match self.studio.take() {
             Some(studio) => studio,
             None => render::studio(self.choice).map_err(|error| error.to_string())?,
@@ -109,10 +161,9 @@ impl Desk {
             viewport: recording.viewport(),
             renderer: studio.adapter().to_string(),
         })));
-        let open =
-            Open { case, replay, place: Place::START, within: None, told: 0, found: false, ended: false };
-        self.open.insert(open).stand(line);
-        Ok(())
+        let open = self.open.insert(Open::new(case, replay));
+        open.stand(line);
+        Ok(open)
     }
 
     fn shoot(&mut self, shot: Shot, line: &mut dyn Line) -> Result<(), String> {
@@ -128,6 +179,11 @@ impl Desk {
 }
 
 impl Open {
+    fn new(case: Case, replay: Box<dyn Replay>) -> Self {
+        let (place, within, making) = (Place::START, None, None);
+        Self { case, replay, place, within, told: 0, found: false, ended: false, making }
+    }
+
     /// The report of the event that ran last, or that is held.
     fn shown(&self) -> Option<EventReport> {
         let held = self.within.as_deref();
@@ -230,7 +286,7 @@ impl Open {
     }
 
     /// Tells what ran for the first time.
-    fn tell_news(&mut self, line: &mut dyn Line) {
+    pub(super) fn tell_news(&mut self, line: &mut dyn Line) {
         while let Some(report) = self.replay.event(self.told) {
             line.tell(Told::Report(Arc::new(report.clone())));
             self.told += 1;
@@ -246,12 +302,13 @@ impl Open {
     }
 
     /// Tells where it is.
-    fn stand(&mut self, line: &mut dyn Line) {
+    pub(super) fn stand(&mut self, line: &mut dyn Line) {
         line.tell(Told::At(Box::new(Standing {
             place: self.place,
             within: self.within.clone(),
             sizes: self.replay.sizes(),
             orbit: self.replay.orbit(),
+            mode: self.replay.mode(),
             kept_bytes: self.replay.kept_bytes(),
         })));
     }

@@ -6,6 +6,7 @@
 mod ask;
 mod camera;
 mod desk;
+mod recording;
 
 use std::any::Any;
 use std::collections::VecDeque;
@@ -14,7 +15,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 
-pub(in crate::tui) use ask::{Ask, Opened, Standing, Told};
+pub(in crate::tui) use ask::{Ask, Hand, Opened, Recorded, Standing, Told};
 pub(in crate::tui) use camera::groups;
 pub(in crate::tui) use desk::{Desk, Line};
 

@@ -1,0 +1,131 @@
+//! Drafts: recordings that are not saved, kept in the user's folder so that no crash and no closed terminal loses them.
+//!
+//! A draft is a recording like any other, `NAME-PROCESS.lancet`, written whole after every event. Two programs never write the same one. Who takes a
+//! draft up again writes one of his own, and only then removes it: whoever may still be writing to it writes it again.
+
+use std::path::{Path, PathBuf};
+
+use crate::assets;
+use crate::recording::{AnyRecording, SceneRef};
+use crate::replay;
+
+/// Where drafts are kept, if anywhere.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Drafts {
+    folder: Option<PathBuf>,
+}
+
+/// A recording that was not saved.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(in crate::tui) struct Draft {
+    /// Its file.
+    pub(in crate::tui) path: PathBuf,
+    /// What it was recorded on, and how many events there are; or why it cannot be read.
+    pub(in crate::tui) content: Result<(String, usize), String>,
+}
+
+/// The file of the draft that is being written, and the one that it takes the place of.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(in crate::tui) struct Slot {
+    own: Option<PathBuf>,
+    taken_up: Option<PathBuf>,
+}
+
+impl Slot {
+    /// The slot of a draft that is taken up again.
+    pub(in crate::tui) fn taking_up(path: &Path) -> Self {
+        Self { own: None, taken_up: Some(path.to_owned()) }
+    }
+
+    /// Removes what is in it: it is saved elsewhere, or there is nothing in it.
+    pub(in crate::tui) fn clear(&mut self) -> Result<(), String> {
+        for file in [self.taken_up.take(), self.own.take()].into_iter().flatten() {
+            assets::remove_file(&file).map_err(|error| error.to_string())?;
+        }
+        Ok(())
+    }
+
+    /// Whether a file is what is written here.
+    fn is(&self, path: &Path) -> bool {
+        self.own.as_deref() == Some(path)
+    }
+}
+
+impl Drafts {
+    /// In a folder.
+    pub fn at(folder: impl Into<PathBuf>) -> Self {
+        Self { folder: Some(folder.into()) }
+    }
+
+    /// Writes a recording, whose paths are relative to `folder`, as the draft of a slot.
+    pub(in crate::tui) fn write(
+        &self,
+        slot: &mut Slot,
+        recording: &AnyRecording,
+        folder: &Path,
+    ) -> Result<(), String> {
+        let Some(drafts) = &self.folder else { return Ok(()) };
+        let not_kept = |error: &dyn std::fmt::Display| format!("not kept as a draft: {error}");
+        if slot.own.is_none() {
+            let drafts = assets::real_folder(drafts).map_err(|error| not_kept(&error))?;
+            slot.own = Some(free(&drafts, &name(recording.scene())));
+        }
+        if let Some(own) = &slot.own {
+            replay::save(recording, folder, own).map_err(|error| not_kept(&error))?;
+        }
+        slot.taken_up.take().map_or(Ok(()), |old| assets::remove_file(&old)).map_err(|error| not_kept(&error))
+    }
+
+    /// All of them but the one that is being written, the newest first.
+    pub(in crate::tui) fn list(&self, but: Option<&Slot>) -> Result<Vec<Draft>, String> {
+        let Some(folder) = self.folder.as_ref().filter(|folder| assets::is_folder(folder)) else {
+            return Ok(Vec::new());
+        };
+        let files = assets::real_folder(folder).and_then(|folder| assets::newest_files(&folder));
+        let mut files = files.map_err(|error| error.to_string())?;
+        files.retain(|path| {
+            path.extension().is_some_and(|end| end == "lancet") && !but.is_some_and(|slot| slot.is(path))
+        });
+        Ok(files.into_iter().map(Draft::read).collect())
+    }
+
+    /// Whether a file that is there is a draft.
+    pub(in crate::tui) fn has(&self, path: &Path) -> bool {
+        let real = |folder: &Path| assets::real_folder(folder).ok();
+        let folder = self.folder.as_ref().filter(|folder| assets::is_folder(folder));
+        let beside = path.parent().filter(|beside| !beside.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        folder.and_then(|folder| real(folder)).is_some_and(|folder| real(beside) == Some(folder))
+    }
+}
+
+impl Draft {
+    fn read(path: PathBuf) -> Self {
+        let content = match replay::read(&path) {
+            Ok(recording) => Ok((recording.scene().to_string(), recording.event_count())),
+            Err(error) => Err(error.to_string()),
+        };
+        Self { path, content }
+    }
+}
+
+/// The first name that is not taken, of those that begin so and have this program's number.
+fn free(folder: &Path, name: &str) -> PathBuf {
+    let own = format!("{name}-{}", std::process::id());
+    let numbered = (2..).map(|number| format!("{own}-{number}"));
+    let names = std::iter::once(own.clone()).chain(numbered);
+    let mut paths = names.map(|name| folder.join(format!("{name}.lancet")));
+    paths.find(|path| !assets::is_file(path)).unwrap_or_default()
+}
+
+/// What a draft is called by its scene: letters and digits that any file system takes.
+fn name(scene: &SceneRef) -> String {
+    const LONGEST: usize = 40;
+    let stem = |path: &Path| path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into());
+    let name: String = match scene {
+        SceneRef::Builtin(name) => name.clone(),
+        SceneRef::File(path) | SceneRef::Mesh(path) => stem(path),
+        SceneRef::Inline(_) => "inline".into(),
+    };
+    let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '-' };
+    name.chars().take(LONGEST).map(plain).collect()
+}
