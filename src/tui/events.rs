@@ -23,7 +23,7 @@ pub(in crate::tui) fn take(model: &mut Model, keys: &Keys, event: Event) -> bool
 }
 
 fn moved(model: &mut Model, event: MouseEvent) -> bool {
-    update::popup::mouse(model, event)
+    update::popup::mouse(model, event) || update::picture::mouse(model, event)
 }
 
 fn pressed(model: &mut Model, keys: &Keys, key: Key) -> bool {

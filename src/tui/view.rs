@@ -122,5 +122,6 @@ fn frame(pane: Pane, model: &Model, theme: &Theme, area: Rect, buffer: &mut Buff
     let title =
         Line::from(vec![number, Span::raw(" "), Span::styled(pane.title(), theme.style(role)), about]);
     let border = theme.style(if focused { Role::Focus } else { Role::Border });
-    Block::bordered().border_style(border).title(title).render(area, buffer);
+    let foot = panes::foot(pane, model, theme);
+    Block::bordered().border_style(border).title(title).title_bottom(foot).render(area, buffer);
 }

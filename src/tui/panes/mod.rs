@@ -9,6 +9,7 @@ mod timeline;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
+use ratatui::text::Line;
 
 use super::model::{Model, Pane};
 use super::theme::Theme;
@@ -33,6 +34,14 @@ pub(super) fn about(pane: Pane, model: &Model) -> String {
         Pane::Checks => checks::about(model),
         Pane::Picture => picture::about(model),
         _ => String::new(),
+    }
+}
+
+/// What stands below a pane.
+pub(super) fn foot(pane: Pane, model: &Model, theme: &Theme) -> Line<'static> {
+    match pane {
+        Pane::Picture => picture::foot(model, theme),
+        _ => Line::default(),
     }
 }
 

@@ -15,8 +15,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 
-pub(in crate::tui) use ask::{Ask, Hand, Opened, Recorded, Standing, Told};
-pub(in crate::tui) use camera::groups;
+pub(in crate::tui) use ask::{Ask, Frame, Hand, Opened, Recorded, Standing, Told};
 pub(in crate::tui) use desk::{Desk, Line};
 
 /// The screen's end.
