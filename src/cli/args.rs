@@ -251,6 +251,12 @@ pub(super) struct Tui {
     /// Who renders
     #[arg(long, value_enum, default_value_t, value_name = "WHO")]
     pub(super) renderer: Renderer,
+    /// Compare it with its goldens at once
+    #[arg(long, requires = "recording")]
+    pub(super) compare: bool,
+    /// Compare it with another run at once: the report of a replay, a recording or a script
+    #[arg(long, value_name = "F", value_hint = ValueHint::FilePath, requires = "recording", conflicts_with = "compare")]
+    pub(super) compare_with: Option<PathBuf>,
     /// Megabytes that going back may take, beside what undo and redo need
     #[arg(long, value_name = "MB", default_value_t = 256)]
     pub(super) budget: u32,

@@ -2,7 +2,7 @@
 //!
 //! A list does not hold its rows: their count comes with each question, and may change between two of them. Nothing fails with no row or no
 //! height. The view remembers where it was scrolled to, so that the selection moves within it before the list does, as people are used to
-//! from editors; it keeps a few rows in view beyond the selection.
+//! from editors; it keeps a few rows in view beyond the selection. Scrolled by hand, it leaves the selection behind until that moves.
 
 use std::cell::Cell;
 use std::ops::Range;
@@ -16,12 +16,14 @@ pub struct List {
     selected: usize,
     /// The first row in view, as it was when last drawn.
     offset: Cell<usize>,
+    /// Whether the view was scrolled by hand, and need not have the selection in it.
+    free: bool,
 }
 
 impl List {
     /// A list with this row selected.
     pub fn at(selected: usize) -> Self {
-        Self { selected, offset: Cell::new(0) }
+        Self { selected, ..Self::default() }
     }
 
     /// The selected row; `None` where there are no rows.
@@ -31,7 +33,7 @@ impl List {
 
     /// Selects a row, or the last one.
     pub fn select(&mut self, row: usize, len: usize) {
-        self.selected = row.min(len.saturating_sub(1));
+        (self.selected, self.free) = (row.min(len.saturating_sub(1)), false);
     }
 
     /// Up by some rows, to the first at most.
@@ -46,7 +48,7 @@ impl List {
 
     /// To the first row.
     pub fn top(&mut self) {
-        self.selected = 0;
+        (self.selected, self.free) = (0, false);
     }
 
     /// To the last row.
@@ -59,18 +61,36 @@ impl List {
         self.select(self.selected, len);
     }
 
+    /// Scrolls the view by some rows and leaves the selection where it is.
+    pub fn scroll(&mut self, by: isize, height: usize, len: usize) {
+        let from = self.window(height, len).start;
+        self.offset.set(from.saturating_add_signed(by));
+        self.free = true;
+    }
+
+    /// Scrolls no further than needed to have a row in view, and leaves the selection where it is.
+    pub fn reveal(&mut self, row: usize, height: usize, len: usize) {
+        let window = self.window(height, len);
+        if row < len && height > 0 && !window.contains(&row) {
+            self.offset.set(if row < window.start { row } else { row + 1 - height });
+            self.free = true;
+        }
+    }
+
     /// By how much a page moves: a row stays in view.
     pub fn page(height: usize) -> usize {
         height.saturating_sub(1).max(1)
     }
 
-    /// The rows in view in this height, with the selection among them; scrolls no further than needed.
+    /// The rows in view in this height, with the selection among them unless it was scrolled away; scrolls no further than needed.
     pub fn window(&self, height: usize, len: usize) -> Range<usize> {
         let Some(selected) = self.selected(len).filter(|_| height > 0) else { return 0..0 };
         let margin = MARGIN.min((height - 1) / 2);
         let least = (selected + margin + 1).saturating_sub(height);
         let most = selected.saturating_sub(margin);
-        let offset = self.offset.get().clamp(least, most).min(len.saturating_sub(height));
+        let offset = self.offset.get();
+        let offset = if self.free { offset } else { offset.clamp(least, most) };
+        let offset = offset.min(len.saturating_sub(height));
         self.offset.set(offset);
         offset..len.min(offset + height)
     }
@@ -134,6 +154,26 @@ mod tests {
         assert_eq!(list.window(10, 100), 42..52);
         list.down(6, 100);
         assert_eq!(list.window(10, 100), 43..53);
+    }
+
+    #[test]
+    fn the_view_scrolls_away_from_the_selection_and_comes_back_with_it() {
+        let mut list = List::at(50);
+        list.window(10, 100);
+        list.scroll(-20, 10, 100);
+        assert_eq!((list.window(10, 100), list.selected(100)), (23..33, Some(50)));
+        list.scroll(-99, 10, 100);
+        assert_eq!(list.window(10, 100), 0..10);
+        list.scroll(isize::MAX, 10, 100);
+        assert_eq!(list.window(10, 100), 90..100);
+        list.down(1, 100);
+        assert_eq!((list.window(10, 100), list.selected(100)), (49..59, Some(51)));
+        list.reveal(3, 10, 100);
+        assert_eq!(list.window(10, 100), 3..13);
+        list.reveal(60, 10, 100);
+        assert_eq!((list.window(10, 100), list.selected(100)), (51..61, Some(51)));
+        list.reveal(5, 0, 0);
+        assert_eq!(list.window(10, 0), 0..0);
     }
 
     #[test]

@@ -32,6 +32,7 @@ pub mod screen;
 mod shot;
 mod stage;
 mod status;
+mod tabs;
 pub mod terminal;
 pub mod text;
 pub mod theme;
@@ -39,6 +40,7 @@ mod update;
 mod view;
 mod worker;
 
+pub use compare::With;
 pub use record::Drafts;
 pub use run::{Start, run};
 pub use stage::Stage;

@@ -142,7 +142,19 @@ impl PictureState {
 
 /// The picture's place on the screen, if it is there and not empty.
 pub(in crate::tui) fn area(model: &Model) -> Option<Rect> {
-    view::areas(model).inner(Pane::Picture).filter(|area| !area.is_empty())
+    places(model).map(|[area, _]| area).filter(|area| !area.is_empty())
+}
+
+/// The places of the picture and of the line below it: on the border where there is one, else a line of the pane where it has enough of them.
+pub(in crate::tui) fn places(model: &Model) -> Option<[Rect; 2]> {
+    let areas = view::areas(model);
+    let inner = areas.inner(Pane::Picture)?;
+    let own = u16::from(inner.height > 3);
+    let [height, y] = [inner.height - own, inner.bottom() - own];
+    Some(match areas.foot(Pane::Picture) {
+        Some(foot) => [inner, foot],
+        None => [Rect { height, ..inner }, Rect { y, height: own, ..inner }],
+    })
 }
 
 /// The picture to make ready: the golden one and the actual one, or the one that the worker took.

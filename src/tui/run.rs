@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 
 use crossterm::event::Event;
 
+use super::compare::{Comparisons, With};
 use super::config::Config;
 use super::environment::Environment;
 use super::image::encoder::{Encoded, Encoder};
@@ -34,6 +35,8 @@ pub struct Start {
     pub budget_bytes: usize,
     /// Where what is recorded is kept until it is saved.
     pub drafts: Drafts,
+    /// What to compare it with at once.
+    pub compare: Option<With>,
     /// The user's settings.
     pub config: Config,
 }
@@ -86,7 +89,8 @@ impl App {
         let keys = Keys::new(&start.config.keys);
         let mut terminal = Terminal::take(start.config.mouse)?;
         let size = terminal.size()?;
-        let mut model = Model { size: [size.width, size.height], ..Model::default() };
+        let comparisons = Comparisons::first(start.compare);
+        let mut model = Model { size: [size.width, size.height], comparisons, ..Model::default() };
         model.picture.medium = medium(&protocol);
         start.recording.into_iter().for_each(|path| model.ask(Ask::Open(path)));
         model.ask(Ask::Drafts);
@@ -133,7 +137,7 @@ impl App {
             match effect {
                 Effect::Ask(ask) => self.worker.ask(ask),
                 Effect::Copy(text) => match self.terminal.copy(&text) {
-                    Ok(()) => self.model.say("copied"),
+                    Ok(()) => {}
                     Err(error) => self.model.complain(format!("not copied: {error}")),
                 },
                 Effect::Suspend => {

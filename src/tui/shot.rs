@@ -158,24 +158,30 @@ mod tests {
     use super::*;
 
     fn report(index: usize, faces: &[(&str, Vec<u32>)]) -> EventReport {
-        let set = |(name, faces): &(&str, Vec<u32>)| Overlay::Faces { name: (*name).into(), faces: faces.clone() };
+        let set =
+            |(name, faces): &(&str, Vec<u32>)| Overlay::Faces { name: (*name).into(), faces: faces.clone() };
         EventReport { overlays: faces.iter().map(set).collect(), ..EventReport::new(index, "any") }
     }
 
     #[test]
     fn every_subject_is_come_to_and_the_first_again() {
         let mut all = vec![Subject::Frame];
-        all.extend(std::iter::successors(Some(Subject::Frame.next()), |s| Some(s.next())).take_while(|s| *s != Subject::Frame));
+        all.extend(
+            std::iter::successors(Some(Subject::Frame.next()), |s| Some(s.next()))
+                .take_while(|s| *s != Subject::Frame),
+        );
         assert_eq!(all, Subject::ALL);
     }
 
     #[test]
     fn what_is_drawn_is_of_the_event_or_of_the_last_one_before_it_that_has_any() {
         let reports = [report(0, &[("a", vec![1])]), report(1, &[("a", vec![])]), report(2, &[])];
-        let find = |held, events| {
-            super::source(held, events, |event| reports.get(event)).map(|report| report.index)
-        };
-        assert_eq!([find(None, 3), find(None, 2), find(None, 1), find(None, 0)], [Some(0), Some(0), Some(0), None]);
+        let find =
+            |held, events| super::source(held, events, |event| reports.get(event)).map(|report| report.index);
+        assert_eq!(
+            [find(None, 3), find(None, 2), find(None, 1), find(None, 0)],
+            [Some(0), Some(0), Some(0), None]
+        );
         let held = report(7, &[("b", vec![3])]);
         assert_eq!(find(Some(&held), 1), Some(7));
         assert_eq!(find(Some(&reports[1]), 1), Some(0), "what is held has nothing yet");
@@ -183,7 +189,8 @@ mod tests {
 
     #[test]
     fn groups_are_first_words_and_need_a_face() {
-        let report = report(0, &[("kind A", vec![1]), ("none", vec![]), ("kind B", vec![2]), ("rim", vec![3])]);
+        let report =
+            report(0, &[("kind A", vec![1]), ("none", vec![]), ("kind B", vec![2]), ("rim", vec![3])]);
         assert_eq!(groups(&report.overlays), ["kind", "rim"]);
     }
 }

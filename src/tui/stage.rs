@@ -9,8 +9,8 @@ use crossterm::event::{Event, KeyEvent};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::key::Key;
 use super::image::encoder::encode;
+use super::key::Key;
 use super::keys::Keys;
 use super::model::{Effect, Model};
 use super::run::Start;
@@ -110,10 +110,7 @@ impl Stage {
                 let told = heard.0.into_iter().map(|told| if steady { steadied(told) } else { told });
                 told.for_each(|told| update::told(&mut self.model, told));
             }
-            Effect::Copy(text) => {
-                self.copied.push(text);
-                self.model.say("copied");
-            }
+            Effect::Copy(text) => self.copied.push(text),
             Effect::Suspend | Effect::Redraw => {}
         }
     }

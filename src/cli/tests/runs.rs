@@ -153,24 +153,26 @@ fn elements_are_marked_in_a_frame_and_in_a_map() {
         answer(&[&replay(script)[..], rest].concat());
         std::fs::read(&at).unwrap()
     };
-    let [shown, map] = [frame(&[]), frame(&["--map", "colour"])];
-    let mut pictures = vec![shown, map];
+    let map = ["--map", "colour"];
+    let mut pictures = vec![("frame", frame(&[])), ("map", frame(&map))];
     for ids in ["f0", "e2", "n3", "v1", "f0,n3"] {
-        pictures.push(frame(&["--select", ids]));
-        pictures.push(frame(&["--select", ids, "--map", "colour"]));
+        pictures.push((ids, frame(&["--select", ids])));
+        pictures.push((ids, frame(&[&["--select", ids][..], &map].concat())));
     }
-    pictures.push(frame(&["--overlay", "charts"]));
-    pictures.push(frame(&["--overlay", "line", "--map", "colour"]));
-    let count = pictures.len();
-    pictures.sort_unstable();
-    pictures.dedup();
-    assert_eq!(pictures.len(), count, "each shows something else");
+    pictures.push(("charts", frame(&["--overlay", "charts"])));
+    pictures.push(("configurations", frame(&[&["--overlay", "configurations"][..], &map].concat())));
+    for (at, (name, picture)) in pictures.iter().enumerate() {
+        let same = pictures[..at].iter().find(|(_, before)| before == picture);
+        assert_eq!(same.map(|(before, _)| (at, *name, *before)), None, "each shows something else");
+    }
     for id in ["f99", "x1", "7", "f", ""] {
         let error = complaint(&[&replay(script)[..], &["--select", id]].concat());
         assert!(error.contains(&format!("--select {id}: there is no such element")), "{error}");
     }
     let error = complaint(&[&replay(&plain)[..], &["--select", "f0", "--map", "colour"]].concat());
     assert!(error.contains("without texture coordinates"), "{error}");
+    let error = complaint(&[&replay(script)[..], &["--overlay", "wire,line"], &map].concat());
+    assert!(error.contains("--overlay line: it lies in space"), "{error}");
     let error = complaint(&[&replay(script)[..], &["--zenith", "1", "--map", "colour"]].concat());
     assert!(error.contains("cannot be used with"), "{error}");
 }

@@ -117,7 +117,8 @@ fn stages(state: &State, cut: &Cut) -> Vec<Overlay> {
         true => Vec::new(),
         false => state.mesh.touched_since(cut.before_carve.mark).faces.iter().map(|face| face.0).collect(),
     };
-    let sets = [("FC", crossed.into_iter().collect()), ("GP", inner), ("PP", outer), ("MC", merged), ("CI", carved)];
+    let sets =
+        [("FC", crossed.into_iter().collect()), ("GP", inner), ("PP", outer), ("MC", merged), ("CI", carved)];
     sets.map(|(stage, faces)| Overlay::Faces { name: format!("stage {stage}"), faces }).into()
 }
 

@@ -210,9 +210,7 @@ impl fmt::Debug for Encoder {
 
 impl Encoder {
     /// Starts the thread. It hands each picture to `done`. An error says that there can be no thread.
-    pub fn start(
-        mut done: impl FnMut(Result<Encoded, String>) + Send + 'static,
-    ) -> std::io::Result<Self> {
+    pub fn start(mut done: impl FnMut(Result<Encoded, String>) + Send + 'static) -> std::io::Result<Self> {
         let desk = Arc::new(Desk::default());
         let theirs = Arc::clone(&desk);
         let work = move || {

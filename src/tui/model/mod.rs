@@ -11,11 +11,11 @@ use std::time::Duration;
 
 pub(in crate::tui) use memory::Memory;
 pub(in crate::tui) use place::{Place, ran};
-pub(in crate::tui) use timing::Timing;
+pub(in crate::tui) use timing::{Spread, Timing};
 
 use crate::canvas::frame::Orbit;
 use crate::report::{EventReport, Finding, StateReport, Stop};
-use crate::tui::compare::Differences;
+use crate::tui::compare::{Comparing, Comparisons, Differences};
 use crate::tui::list::List;
 use crate::tui::picture::PictureState;
 use crate::tui::popups::Popup;
@@ -143,6 +143,10 @@ pub(in crate::tui) struct Model {
     pub(in crate::tui) picture: PictureState,
     /// What it is compared with, and how it differs.
     pub(in crate::tui) differences: Option<Differences>,
+    /// The comparison that is being made.
+    pub(in crate::tui) comparing: Option<Comparing>,
+    /// Those that were begun, and that are to be.
+    pub(in crate::tui) comparisons: Comparisons,
     /// The recording that is being made.
     pub(in crate::tui) recorder: Option<Recorder>,
     /// What becomes of what was recorded.
@@ -207,6 +211,19 @@ impl Lists {
             Pane::Picture => return None,
         })
     }
+
+    /// The same, to look at.
+    pub(in crate::tui) fn get(&self, pane: Pane) -> Option<&List> {
+        Some(match pane {
+            Pane::Timeline => &self.timeline,
+            Pane::Stages => &self.stages,
+            Pane::Mesh => &self.mesh,
+            Pane::Tables => &self.tables,
+            Pane::Checks => &self.checks,
+            Pane::Differences => &self.differences,
+            Pane::Picture => return None,
+        })
+    }
 }
 
 impl Model {
@@ -218,13 +235,19 @@ impl Model {
 
     /// Whether the worker is at work.
     pub(in crate::tui) fn is_busy(&self) -> bool {
-        self.answered < self.asked || self.progress.is_some() || self.picture.is_awaited()
+        self.answered < self.asked
+            || self.progress.is_some()
+            || self.comparing.is_some()
+            || self.picture.is_awaited()
     }
 
-    /// Chooses the row of the place in the timeline.
+    /// Chooses the rows of the place in the timeline and among the stages.
     pub(in crate::tui) fn follow(&mut self) {
         let row = self.place.event().map_or(0, |event| event + 1);
         self.lists.timeline.select(row, self.len() + 1);
+        if let Some(row) = self.shown().and_then(|report| self.place.row(report)) {
+            self.lists.stages.select(row, usize::MAX);
+        }
     }
 
     /// Says something.
@@ -252,6 +275,12 @@ impl Model {
         self.report(self.place.event()?)
     }
 
+    /// A place in a few letters: `12` after twelve events, `12+MC` within the next after a stage.
+    pub(in crate::tui) fn name(&self, place: Place) -> String {
+        let id = place.stage.and_then(|stage| Some(&self.report(place.events)?.stages.get(stage)?.id));
+        id.map_or(place.events.to_string(), |id| format!("{}+{id}", place.events))
+    }
+
     /// Where the worker is, if it is at the place that is shown.
     pub(in crate::tui) fn here(&self) -> Option<&Standing> {
         self.standing.as_ref().filter(|standing| standing.place == self.place)
@@ -265,5 +294,10 @@ impl Model {
     /// Whether an element is among those that are selected.
     pub(in crate::tui) fn is_selected(&self, id: &str) -> bool {
         self.selected.iter().any(|selected| selected == id)
+    }
+
+    /// Whether any of some elements is.
+    pub(in crate::tui) fn any_selected(&self, ids: &[String]) -> bool {
+        ids.iter().any(|id| self.is_selected(id))
     }
 }

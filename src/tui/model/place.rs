@@ -40,6 +40,23 @@ impl Place {
         Some(within.map_or(Self::after(self.events + 1), |row| Self { stage: Some(*row), ..self }))
     }
 
+    /// The place after a row of an event's stages, or after the last one before it that ran; none where none did.
+    pub(in crate::tui) fn after_row(report: &EventReport, row: usize) -> Option<Self> {
+        let rows = ran(report);
+        let stage = *rows.iter().rfind(|ran| **ran <= row).filter(|_| row < report.stages.len())?;
+        let within = rows.last() != Some(&stage);
+        Some(if within {
+            Self { events: report.index, stage: Some(stage) }
+        } else {
+            Self::after(report.index + 1)
+        })
+    }
+
+    /// The row of the stage that ran last, in the report of [`Place::event`].
+    pub(in crate::tui) fn row(self, report: &EventReport) -> Option<usize> {
+        self.stage.or_else(|| ran(report).last().copied())
+    }
+
     /// The place one stage back. `report` gives the report of an event.
     pub(in crate::tui) fn stage_back<'a>(
         self,
@@ -88,6 +105,17 @@ mod tests {
             assert_eq!(pair[1].stage_back(|_| Some(&report)), Some(pair[0]));
         }
         assert_eq!(Place::START.stage_back(|_| Some(&report)), None);
+    }
+
+    #[test]
+    fn a_row_of_the_stages_is_a_place_and_the_place_has_that_row() {
+        let report = report();
+        let places: Vec<Option<Place>> = (0..5).map(|row| Place::after_row(&report, row)).collect();
+        let within = |stage| Some(Place { events: 0, stage: Some(stage) });
+        assert_eq!(places, [within(0), within(0), within(2), Some(Place::after(1)), None]);
+        let rows: Vec<Option<usize>> = places.into_iter().flatten().map(|place| place.row(&report)).collect();
+        assert_eq!(rows, [Some(0), Some(0), Some(2), Some(3)]);
+        assert_eq!(Place::after(1).row(&EventReport::new(0, "mode")), None);
     }
 
     #[test]

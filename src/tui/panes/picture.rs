@@ -19,6 +19,7 @@ use ratatui::widgets::{Paragraph, Widget, Wrap};
 use crate::report::printable;
 use crate::tui::image::protocol::Kind;
 use crate::tui::model::Model;
+use crate::tui::picture;
 use crate::tui::picture::golden::{self, Golden};
 use crate::tui::record::cross;
 use crate::tui::shot::{Picture, Tint};
@@ -70,7 +71,7 @@ fn recorded(model: &Model) -> Option<crate::canvas::frame::Orbit> {
 }
 
 /// What the colours mean, or how far the picture is from its golden.
-pub(super) fn foot(model: &Model, theme: &Theme) -> Line<'static> {
+fn foot(model: &Model, theme: &Theme) -> Line<'static> {
     let picture = &model.picture;
     match (picture.golden, &picture.got) {
         (Golden::Off, Some(got)) => legend(&got.legend),
@@ -81,7 +82,10 @@ pub(super) fn foot(model: &Model, theme: &Theme) -> Line<'static> {
 
 fn legend(sets: &[(String, [u8; 3])]) -> Line<'static> {
     let spans = sets.iter().flat_map(|(name, [r, g, b])| {
-        [Span::styled("■ ", Style::new().fg(Color::Rgb(*r, *g, *b))), Span::raw(format!("{}  ", printable(name)))]
+        [
+            Span::styled("■ ", Style::new().fg(Color::Rgb(*r, *g, *b))),
+            Span::raw(format!("{}  ", printable(name))),
+        ]
     });
     Line::from(spans.collect::<Vec<_>>())
 }
@@ -104,7 +108,9 @@ fn verdict(report: &ImageReport, theme: &Theme) -> Line<'static> {
     Line::from(spans)
 }
 
-pub(super) fn draw(model: &Model, theme: &Theme, area: Rect, buffer: &mut Buffer) {
+pub(super) fn draw(model: &Model, theme: &Theme, buffer: &mut Buffer) {
+    let Some([area, below]) = picture::places(model) else { return };
+    foot(model, theme).render(below, buffer);
     match (lack(model), &model.picture.encoded) {
         (Some(lack), _) => {
             let words = Paragraph::new(lack).style(theme.style(Role::Faint));

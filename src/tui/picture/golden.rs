@@ -55,8 +55,8 @@ pub(in crate::tui) struct Beside {
 }
 
 impl Beside {
-    fn is_of(&self, golden: &Image, actual: &Image) -> bool {
-        *self.golden == *golden && *self.actual == *actual
+    fn is_of(&self, golden: &Arc<Image>, actual: &Arc<Image>) -> bool {
+        Arc::ptr_eq(&self.golden, golden) && Arc::ptr_eq(&self.actual, actual)
     }
 }
 
@@ -77,8 +77,8 @@ pub(in crate::tui) fn follow(model: &mut Model) {
         (Some((golden, actual)), Some(before)) if before.is_of(golden, actual) => return,
         (Some((golden, actual)), _) => Some(Beside {
             number: model.picture.goldens + 1,
-            golden: Arc::new(golden.clone()),
-            actual: Arc::new(actual.clone()),
+            golden: Arc::clone(golden),
+            actual: Arc::clone(actual),
             difference: Arc::new(verify::difference(golden, actual)),
         }),
     };

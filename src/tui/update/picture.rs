@@ -213,7 +213,14 @@ fn frame(model: &Model) -> Option<Frame> {
         Subject::Map(_) => [u32::MAX; 2],
     };
     let drawn = Drawn { marked: model.selected.clone(), ..drawn.clone() };
-    Some(Frame::Shot(Box::new(Shot { number: 0, subject: *subject, orbit: *orbit, limit: size, shown: size, drawn })))
+    Some(Frame::Shot(Box::new(Shot {
+        number: 0,
+        subject: *subject,
+        orbit: *orbit,
+        limit: size,
+        shown: size,
+        drawn,
+    })))
 }
 
 #[cfg(test)]

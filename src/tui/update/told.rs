@@ -45,6 +45,8 @@ pub(in crate::tui) fn told(model: &mut Model, told: Told) {
                 }
             }
         }
+        Told::Comparing { number, done, of } => super::compare::advanced(model, number, done, of),
+        Told::Compared { number, found } => super::compare::compared(model, number, *found),
         Told::Stopped(why) => {
             model.playing = None;
             model.say(format!("stopped: {why}"));
@@ -62,14 +64,28 @@ fn broken(model: &mut Model, why: &str) {
 }
 
 fn open(model: &mut Model, opened: Opened) {
-    let Model { size, focus, maximised, pace, stops, memory, picture, effects, asked, answered, kept, .. } =
-        std::mem::take(model);
+    let comparisons = super::compare::end(model);
+    let Model {
+        size, focus, maximised, pace, stops, memory, picture, effects, asked, answered, kept, ..
+    } = std::mem::take(model);
     let picture = picture.anew();
-    let stays =
-        Model { size, focus, maximised, pace, stops, memory, picture, effects, asked, answered, ..Model::default() };
+    let stays = Model {
+        size,
+        focus,
+        maximised,
+        pace,
+        stops,
+        memory,
+        picture,
+        effects,
+        asked,
+        answered,
+        ..Model::default()
+    };
     *model = Model { opened: Some(opened), ..stays };
     model.ask(Ask::Learn);
     record::opened(model, kept);
+    super::compare::begin_first(model, comparisons);
 }
 
 /// Where the worker got to by itself, or was stopped, is where the screen goes too, unless it has been sent on since.

@@ -7,6 +7,7 @@ use crate::canvas::frame::Orbit;
 use crate::canvas::image::Image;
 use crate::replay::Input;
 use crate::report::{EventReport, Finding, StateReport, Stop};
+use crate::tui::compare::{Differences, Job};
 use crate::tui::model::Place;
 use crate::tui::record::Draft;
 use crate::tui::shot::{Picture, Shot, Sight};
@@ -59,6 +60,10 @@ pub(in crate::tui) enum Ask {
     Save(PathBuf),
     /// Tell what unsaved recordings there are.
     Drafts,
+    /// Compare a recording's file with its goldens or with another run, beside everything else.
+    Compare(Job),
+    /// Stop comparing.
+    StopComparing,
     /// Stop what is being done, if anything is.
     Cancel,
 }
@@ -91,18 +96,20 @@ pub(in crate::tui) enum Hand {
 impl Ask {
     /// Whether it comes before pictures, and before what nobody waits for.
     pub(in crate::tui) fn is_urgent(&self) -> bool {
-        !matches!(self, Self::Shoot(_) | Self::Learn | Self::Drafts)
+        let quiet = matches!(self, Self::Shoot(_) | Self::Learn | Self::Drafts);
+        !quiet && !matches!(self, Self::Compare(_) | Self::StopComparing)
     }
 
     /// Whether it leaves the state as it is.
     pub(in crate::tui) fn keeps_the_state(&self) -> bool {
         let looks = matches!(self, Self::Shoot(_) | Self::Identify { .. } | Self::SavePicture { .. });
-        looks || matches!(self, Self::Check | Self::Learn | Self::Save(_) | Self::Drafts | Self::Cancel)
+        let tells = matches!(self, Self::Check | Self::Learn | Self::Save(_) | Self::Drafts | Self::Cancel);
+        looks || tells || matches!(self, Self::Compare(_) | Self::StopComparing)
     }
 
     /// Whether it puts an end to what is being done.
     pub(in crate::tui) fn interrupts(&self) -> bool {
-        !self.keeps_the_state() || matches!(self, Self::Save(_) | Self::Cancel)
+        self.is_urgent() && !matches!(self, Self::Check | Self::Identify { .. } | Self::SavePicture { .. })
     }
 }
 
@@ -180,6 +187,22 @@ pub(in crate::tui) enum Told {
     Saved(PathBuf),
     /// The unsaved recordings, the newest first.
     Drafts(Vec<Draft>),
+    /// How far a comparison is.
+    Comparing {
+        /** Which. */
+        number: u64,
+        /** How many events have run. */
+        done: usize,
+        /** Of how many. */
+        of: usize,
+    },
+    /// What a comparison came to, or why there is none.
+    Compared {
+        /** Which. */
+        number: u64,
+        /** What was found. */
+        found: Box<Result<Differences, String>>,
+    },
     /// A run stopped at an event, for this reason.
     Stopped(String),
     /// The program broke one of its own assertions, and what was open is closed.

@@ -110,9 +110,7 @@ fn reduced(map: Image, limit: [u32; 2]) -> Image {
 /// The face that is seen at shares of a picture's width and height.
 pub(super) fn face_at(mesh: &Mesh, sight: &Sight, share: [f64; 2]) -> Option<String> {
     let face = match sight {
-        Sight::View(view) => {
-            overlay::face_at(view, mesh, [0, 1].map(|k| share[k] * f64::from(view.size[k])))
-        }
+        Sight::View(view) => overlay::face_at(view, mesh, [0, 1].map(|k| share[k] * f64::from(view.size[k]))),
         Sight::Map => overlay::face_at_uv(mesh, [share[0], 1.0 - share[1]]),
     };
     face.map(|face| face.to_string())
@@ -163,7 +161,13 @@ mod tests {
     #[test]
     fn a_face_has_one_colour_and_a_set_that_has_none_is_no_set() {
         let line = Overlay::Line { name: "kind".into(), points: vec![[0.0; 3]] };
-        let overlays = [faces("kind A", &[1, 2, 3]), line, faces("kind B", &[4]), faces("kind C", &[2, 4]), faces("rim", &[1])];
+        let overlays = [
+            faces("kind A", &[1, 2, 3]),
+            line,
+            faces("kind B", &[4]),
+            faces("kind C", &[2, 4]),
+            faces("rim", &[1]),
+        ];
         let sets = tinted(&Tint::Group("kind".into()), &overlays);
         assert_eq!(sets, [faces("kind A", &[1, 3]), faces("kind C", &[2, 4])]);
         assert!(tinted(&Tint::Charts, &overlays).is_empty());

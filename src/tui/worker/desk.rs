@@ -9,12 +9,14 @@ use std::time::Instant;
 
 use super::ask::{Ask, Frame, Opened, Standing, Told};
 use super::camera::{self, Camera, Taken};
+use super::compare;
 use super::recording::{self, Making};
 use crate::assets;
 use crate::canvas::Studio;
 use crate::render::{self, Choice};
 use crate::replay::{Case, Options, Replay};
 use crate::report::{EventReport, Stop};
+use crate::tui::compare::Job;
 use crate::tui::model::Place;
 use crate::tui::record::Drafts;
 use crate::tui::shot::{self, Picture, Shot, Sight};
@@ -60,7 +62,14 @@ pub(in crate::tui) struct Desk {
 impl Desk {
     /// A desk with nothing on it. The renderer is opened with the first recording.
     pub(in crate::tui) fn new(choice: Choice, budget_bytes: usize) -> Self {
-        Self { choice, budget_bytes, studio: None, drafts: Drafts::default(), camera: Camera::default(), open: None }
+        Self {
+            choice,
+            budget_bytes,
+            studio: None,
+            drafts: Drafts::default(),
+            camera: Camera::default(),
+            open: None,
+        }
     }
 
     /// The same, which keeps what is recorded as drafts.
@@ -114,7 +123,11 @@ impl Desk {
             }
             Ask::Save(path) => self.opened()?.save(&path, line),
             Ask::Drafts => self.list_drafts(line),
-            Ask::Cancel => Ok(()),
+            Ask::Compare(job) => {
+                self.compare(&job, line);
+                Ok(())
+            }
+            Ask::Cancel | Ask::StopComparing => Ok(()),
         }
     }
 
@@ -135,6 +148,11 @@ impl Desk {
         let case = recording::begin(scene, viewport)?;
         self.show(case, None, line)?.tell_recording(true, line);
         Ok(())
+    }
+
+    /// Makes a comparison, which has nothing to do with what is open here.
+    pub(in crate::tui) fn compare(&self, job: &Job, line: &mut dyn Line) {
+        compare::carry_out(job, self.choice, line);
     }
 
     fn opened(&mut self) -> Result<&mut Open, String> {

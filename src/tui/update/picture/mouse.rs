@@ -69,7 +69,11 @@ fn release(model: &mut Model, area: Rect, at: Position) {
 fn identify(model: &mut Model, area: Rect, at: Position) {
     let point = model.picture.medium.middle([at.x.saturating_sub(area.x), at.y.saturating_sub(area.y)]);
     let Some((got, encoded)) = picture::seen(model) else { return };
-    let ask = encoded.fit.to_share(point).map(|share| Ask::Identify { place: got.place, sight: got.sight, at: share });
+    let ask = encoded.fit.to_share(point).map(|share| Ask::Identify {
+        place: got.place,
+        sight: got.sight,
+        at: share,
+    });
     match ask {
         Some(ask) => model.ask(ask),
         None => model.selected.clear(),
