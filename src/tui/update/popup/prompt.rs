@@ -6,7 +6,7 @@ use crate::tui::edit::Typed;
 use crate::tui::key::Key;
 use crate::tui::model::{Model, ran};
 use crate::tui::popups::{Prompt, Question};
-use crate::tui::update::{compare, record, search, step};
+use crate::tui::update::{compare, picture, record, search, step};
 
 /// Does what was answered; an error says what is wrong with the answer.
 fn answer(model: &mut Model, question: Question, text: &str) -> Result<(), String> {
@@ -18,6 +18,7 @@ fn answer(model: &mut Model, question: Question, text: &str) -> Result<(), Strin
         Question::Save => record::save(model, text),
         Question::CompareWith => compare::with(model, text),
         Question::Search => search::find(model, text),
+        Question::SavePicture => picture::save(model, text),
         other => Err(format!("{other:?} is not there yet")),
     }
 }
