@@ -109,3 +109,6 @@ fn pressed(model: &mut Model, keys: &Keys, key: Key) -> bool {
     action.into_iter().for_each(|action| update::act(model, action));
     action.is_some()
 }
+
+#[cfg(test)]
+mod tests;

@@ -168,3 +168,6 @@ pub(in crate::tui) fn draw(model: &Model, theme: &Theme, keys: &Keys, buffer: &m
     status::status(model, theme, keys, areas.status, buffer);
     popups::draw(model, theme, keys, buffer);
 }
+
+#[cfg(test)]
+mod tests;
