@@ -161,7 +161,7 @@ pub(super) struct Replay {
     /// The recording
     #[arg(value_name = "REC", value_hint = ValueHint::FilePath)]
     pub(super) recording: PathBuf,
-    /// Stop after this event, or after a stage of it, such as 4.MC
+    /// Stop after this event, or after a stage of it, such as 4.MC; or before the first one (`start`)
     #[arg(long, value_name = "EVENT[.STAGE]")]
     pub(super) until: Option<Until>,
     /// Stop after the first event with a broken invariant (`finding`), that was rejected (`rejected`, `rejected=miss`), that counted something
@@ -234,6 +234,12 @@ pub(super) struct Tui {
     /// Who renders
     #[arg(long, value_enum, default_value_t, value_name = "WHO")]
     pub(super) renderer: Renderer,
+    /// Compare it with its goldens at once
+    #[arg(long, requires = "recording")]
+    pub(super) compare: bool,
+    /// Compare it with another run at once: the report of a replay, a recording or a script
+    #[arg(long, value_name = "F", value_hint = ValueHint::FilePath, requires = "recording", conflicts_with = "compare")]
+    pub(super) compare_with: Option<PathBuf>,
     /// Megabytes that going back may take, beside what undo and redo need
     #[arg(long, value_name = "MB", default_value_t = 256)]
     pub(super) budget: u32,

@@ -47,11 +47,24 @@ fn over_map(map: Map, drawings: &[Drawing<'_>], replay: &mut dyn replay::Replay)
     if drawings.is_empty() {
         return Ok(image);
     }
+    if let Some(name) = drawings.iter().find_map(in_space) {
+        return Err(Failure::new(format_args!(
+            "--overlay {name}: it lies in space, and a map shows faces alone"
+        )));
+    }
     let mesh = replay.mesh().filter(|mesh| mesh.is_textured());
     let mesh =
         mesh.ok_or_else(|| Failure::new("without texture coordinates nothing can be drawn over a map"))?;
     overlay::draw_uv(&mut image, mesh, drawings);
     Ok(image)
+}
+
+/// The name of what has no place in a map.
+fn in_space<'a>(drawing: &Drawing<'a>) -> Option<&'a str> {
+    match drawing {
+        Drawing::Shown(overlay @ (Overlay::Line { .. } | Overlay::Points { .. })) => Some(overlay.name()),
+        _ => None,
+    }
 }
 
 /// An element that is not there cannot be marked.

@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 
 use crossterm::event::Event;
 
+use super::compare::{Comparisons, With};
 use super::config::Config;
 use super::environment::Environment;
 use super::keys::Keys;
@@ -32,6 +33,8 @@ pub struct Start {
     pub budget_bytes: usize,
     /// Where what is recorded is kept until it is saved.
     pub drafts: Drafts,
+    /// What to compare it with at once.
+    pub compare: Option<With>,
     /// The user's settings.
     pub config: Config,
 }
@@ -73,7 +76,8 @@ impl App {
         let keys = Keys::new(&start.config.keys);
         let mut terminal = Terminal::take(start.config.mouse)?;
         let size = terminal.size()?;
-        let mut model = Model { size: [size.width, size.height], ..Model::default() };
+        let comparisons = Comparisons::first(start.compare);
+        let mut model = Model { size: [size.width, size.height], comparisons, ..Model::default() };
         start.recording.into_iter().for_each(|path| model.ask(Ask::Open(path)));
         model.ask(Ask::Drafts);
         // The first frame comes before anything that takes time.

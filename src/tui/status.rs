@@ -64,7 +64,9 @@ fn place(model: &Model) -> String {
 fn going(model: &Model) -> String {
     let unsaved = model.kept.unsaved.then(|| "  not saved".to_owned());
     let playing = model.playing.map(|pause| format!("  ▶ {} ms", pause.as_millis()));
-    let busy = model.progress.map(|Progress { what, done, of }| match of {
+    let comparing = model.comparing.as_ref();
+    let comparing = comparing.map(|it| Progress { what: "comparing", done: it.done, of: it.of });
+    let busy = model.progress.or(comparing).map(|Progress { what, done, of }| match of {
         0 => format!("  {what}…"),
         of => format!("  {what} {done}/{of}"),
     });

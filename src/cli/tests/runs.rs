@@ -57,6 +57,8 @@ fn a_replay_stops_where_it_is_told() {
     assert_eq!((&stages[0]["skipped"], &stages[3]["skipped"]), (&Value::Null, &"until".into()));
     assert!(complaint(&["replay", &script, "--until", "6"]).contains("there is no event 6; there are 6"));
     assert!(complaint(&["replay", &script, "--until", "2.XY"]).contains("XY"));
+    assert_eq!(events("start").as_array().map(Vec::len), Some(0));
+    assert!(complaint(&["replay", &script, "--until", "18446744073709551615"]).contains("not EVENT"));
     assert!(complaint(&["replay", &script, "--until", "x"]).contains("4 or 4.MC"));
 }
 
@@ -143,7 +145,7 @@ fn a_frame_shows_whatever_the_report_has_to_show() {
 #[test]
 fn elements_are_marked_in_a_frame_and_in_a_map() {
     let (folder, plain) = square();
-    let uv = "[[0, 1, 2], [0, 2, 3]], \"uv\": [[0, 0], [1, 0], [1, 1], [0, 1]]";
+    let uv = "[[0, 1, 2], [0, 2, 3]], \"uv\": [[0.1, 0.1], [0.9, 0.1], [0.9, 0.8], [0.1, 0.8]]";
     let script = folder.path().join("textured.json");
     std::fs::write(&script, SQUARE.replace("[[0, 1, 2], [0, 2, 3]]", uv)).unwrap();
     let script = script.to_str().unwrap();
@@ -153,24 +155,26 @@ fn elements_are_marked_in_a_frame_and_in_a_map() {
         answer(&[&replay(script)[..], rest].concat());
         std::fs::read(&at).unwrap()
     };
-    let [shown, map] = [frame(&[]), frame(&["--map", "colour"])];
-    let mut pictures = vec![shown, map];
+    let map = ["--map", "colour"];
+    let mut pictures = vec![("frame", frame(&[])), ("map", frame(&map))];
     for ids in ["f0", "e2", "n3", "v1", "f0,n3"] {
-        pictures.push(frame(&["--select", ids]));
-        pictures.push(frame(&["--select", ids, "--map", "colour"]));
+        pictures.push((ids, frame(&["--select", ids])));
+        pictures.push((ids, frame(&[&["--select", ids][..], &map].concat())));
     }
-    pictures.push(frame(&["--overlay", "charts"]));
-    pictures.push(frame(&["--overlay", "line", "--map", "colour"]));
-    let count = pictures.len();
-    pictures.sort_unstable();
-    pictures.dedup();
-    assert_eq!(pictures.len(), count, "each shows something else");
+    pictures.push(("charts", frame(&["--overlay", "charts"])));
+    pictures.push(("configurations", frame(&[&["--overlay", "configurations"][..], &map].concat())));
+    for (at, (name, picture)) in pictures.iter().enumerate() {
+        let same = pictures[..at].iter().find(|(_, before)| before == picture);
+        assert_eq!(same.map(|(before, _)| (at, *name, *before)), None, "each shows something else");
+    }
     for id in ["f99", "x1", "7", "f", ""] {
         let error = complaint(&[&replay(script)[..], &["--select", id]].concat());
         assert!(error.contains(&format!("--select {id}: there is no such element")), "{error}");
     }
     let error = complaint(&[&replay(&plain)[..], &["--select", "f0", "--map", "colour"]].concat());
     assert!(error.contains("without texture coordinates"), "{error}");
+    let error = complaint(&[&replay(script)[..], &["--overlay", "wire,line"], &map].concat());
+    assert!(error.contains("--overlay line: it lies in space"), "{error}");
     let error = complaint(&[&replay(script)[..], &["--zenith", "1", "--map", "colour"]].concat());
     assert!(error.contains("cannot be used with"), "{error}");
 }

@@ -4,6 +4,7 @@
 //! about, and which have to do with what is selected. Clicks, keys, search and copying work on these and know no pane.
 
 mod checks;
+mod differences;
 mod grid;
 mod mesh;
 mod picture;
@@ -27,7 +28,8 @@ pub(super) fn draw(pane: Pane, model: &Model, theme: &Theme, area: Rect, buffer:
         Pane::Mesh => mesh::nothing(model),
         Pane::Tables => tables::nothing(model),
         Pane::Checks => checks::nothing(model),
-        Pane::Timeline | Pane::Picture | Pane::Differences => "",
+        Pane::Differences => differences::nothing(model),
+        Pane::Timeline | Pane::Picture => "",
     };
     if !why.is_empty() && len(model, pane) == 0 {
         return rows::nothing(why, theme, area, buffer);
@@ -39,12 +41,15 @@ pub(super) fn draw(pane: Pane, model: &Model, theme: &Theme, area: Rect, buffer:
         Pane::Picture => picture::draw(model, theme, area, buffer),
         Pane::Tables => tables::draw(model, theme, area, body, buffer),
         Pane::Checks => checks::draw(model, theme, area, buffer),
-        Pane::Differences => {}
+        Pane::Differences => differences::draw(model, theme, area, body, buffer),
     }
 }
 
 /// The part of a pane's content that has its rows: below the heads, where there are any and room for them.
 pub(super) fn body(pane: Pane, area: Rect) -> Rect {
+    if pane == Pane::Differences {
+        return differences::body(area);
+    }
     let head = u16::from(matches!(pane, Pane::Tables | Pane::Mesh) && area.height > 1);
     Rect { y: area.y + head, height: area.height - head, ..area }
 }
@@ -58,7 +63,7 @@ pub(super) fn about(pane: Pane, model: &Model) -> String {
         Pane::Tables => tables::about(model),
         Pane::Checks => checks::about(model),
         Pane::Picture => picture::about(model),
-        Pane::Differences => String::new(),
+        Pane::Differences => differences::about(model),
     }
 }
 
@@ -70,7 +75,8 @@ pub(super) fn len(model: &Model, pane: Pane) -> usize {
         Pane::Mesh => mesh::len(model),
         Pane::Tables => tables::len(model),
         Pane::Checks => checks::len(model),
-        Pane::Picture | Pane::Differences => 0,
+        Pane::Differences => differences::len(model),
+        Pane::Picture => 0,
     }
 }
 
@@ -82,7 +88,8 @@ pub(super) fn texts(model: &Model, pane: Pane) -> Vec<String> {
         Pane::Mesh => mesh::texts(model),
         Pane::Tables => tables::texts(model),
         Pane::Checks => checks::texts(model),
-        Pane::Picture | Pane::Differences => Vec::new(),
+        Pane::Differences => differences::texts(model),
+        Pane::Picture => Vec::new(),
     }
 }
 
@@ -98,7 +105,8 @@ pub(super) fn ids(model: &Model, pane: Pane) -> Vec<String> {
         Pane::Stages => stages::ids(model),
         Pane::Tables => tables::ids(model),
         Pane::Checks => checks::ids(model),
-        Pane::Mesh | Pane::Picture | Pane::Differences => Vec::new(),
+        Pane::Differences => differences::ids(model),
+        Pane::Mesh | Pane::Picture => Vec::new(),
     }
 }
 
@@ -107,6 +115,7 @@ pub(super) fn marked(model: &Model, pane: Pane) -> Vec<usize> {
     match pane {
         Pane::Tables => tables::marked(model),
         Pane::Checks => checks::marked(model),
+        Pane::Differences => differences::marked(model),
         _ => Vec::new(),
     }
 }
@@ -133,6 +142,3 @@ pub(super) fn chosen(model: &mut Model, pane: Pane) {
 pub(super) fn next_table(model: &mut Model) {
     tables::next(model);
 }
-
-#[cfg(test)]
-mod tests;

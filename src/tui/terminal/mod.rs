@@ -1,13 +1,15 @@
 //! The terminal, taken for a while and given back as it was.
 //!
 //! Whatever ends the program, the terminal is given back: [`Drop`] does it on every ordinary way out, and a panic hook before the
-//! panic's message is written, so that it lands where it can be read. Signals that ask the program to end raise a flag instead, so that the loop
+//! panic's message is written, so that it lands where it can be read. A panic of another thread does not end the program; its
+//! message waits with all else that is written to standard error meanwhile (`errors.rs`). Signals that ask the program to end raise a flag instead, so that the loop
 //! leaves in order ([`Terminal::ended`]). Giving back twice is harmless.
 //!
 //! A frame is composed in memory and goes out in one piece, as a synchronized update. So a frame is shown whole or not at all, a
 //! resize does not flicker, and a panic half way through one leaves nothing behind. What could be lost
-//! while the program goes on (a panic that a worker survives, `kill -STOP` and `fg`) is taken again with the next frame.
+//! while the program goes on (`kill -STOP` and `fg`) is taken again with the next frame.
 
+mod errors;
 mod events;
 mod signals;
 
@@ -16,6 +18,7 @@ use std::io::{self, IsTerminal, Write};
 use std::panic;
 use std::rc::Rc;
 use std::sync::{Mutex, MutexGuard, Once, PoisonError};
+use std::thread::{self, ThreadId};
 
 use ratatui::Frame;
 use ratatui::backend::CrosstermBackend;
@@ -33,15 +36,24 @@ use ratatui::crossterm::terminal::{
 use ratatui::crossterm::{cursor, terminal};
 use ratatui::layout::Size;
 
+use errors::Errors;
 pub use events::listen;
 use signals::Signals;
 
 /// Terminals drop longer sequences; xterm's and tmux's limits lie above it.
 const MOST_COPIED: usize = 100_000;
 
-/// Whether the terminal is ours now. Held while something is written to it, so that nothing is written to one that was given back.
-static TAKEN: Mutex<bool> = Mutex::new(false);
+/// Who has the terminal now. Locked while something is written to it, so that nothing is written to one that was given back.
+static TAKEN: Mutex<Option<Taken>> = Mutex::new(None);
 static HOOK: Once = Once::new();
+
+/// The terminal is ours.
+struct Taken {
+    /// The thread without which the program does not go on.
+    by: ThreadId,
+    /// Standard error, led away.
+    errors: Option<Errors>,
+}
 
 /// The terminal, while it is ours.
 pub struct Terminal {
@@ -64,7 +76,7 @@ impl Terminal {
         let pending = Pending::default();
         let screen = ratatui::Terminal::new(CrosstermBackend::new(pending.clone()))?;
         signals.hold(true);
-        take(mouse).inspect_err(|_| signals.hold(*taken()))?;
+        take(mouse).inspect_err(|_| signals.hold(taken().is_some()))?;
         Ok(Self { screen, pending, mouse, signals })
     }
 
@@ -92,7 +104,7 @@ impl Terminal {
 
     /// Whether somebody else wrote to the screen, so that a frame is due.
     pub fn lost(&self) -> bool {
-        self.signals.continued() || !*taken()
+        self.signals.continued() || taken().is_none()
     }
 
     /// Whether the program was asked to end: by a signal, or because the terminal was closed. No event comes with it, so a wait for events
@@ -156,34 +168,37 @@ impl Write for Pending {
     }
 }
 
-fn taken() -> MutexGuard<'static, bool> {
+fn taken() -> MutexGuard<'static, Option<Taken>> {
     TAKEN.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 fn take(mouse: bool) -> io::Result<()> {
     let mut taken = taken();
-    if *taken {
+    if taken.is_some() {
         return Err(io::Error::other("the terminal is taken already"));
     }
-    *taken = true;
+    let now = taken.insert(Taken { by: thread::current().id(), errors: None });
     let entered = enable_raw_mode().and_then(|()| write_out(&enter(mouse)?));
+    let entered = entered.and_then(|()| Errors::lead_away()).map(|errors| now.errors = errors);
     drop(taken);
     entered.inspect_err(|_| give_back())
 }
 
 /// Gives the terminal back, if it was taken. There is nobody to tell when that fails.
 fn give_back() {
-    let mut taken = taken();
-    if std::mem::take(&mut *taken) {
+    if let Some(Taken { errors, .. }) = taken().take() {
         let _ = leave().and_then(|bytes| write_out(&bytes));
         let _ = disable_raw_mode();
+        errors.into_iter().for_each(Errors::give_back);
     }
 }
 
 fn give_back_on_panic() {
     let before = panic::take_hook();
     panic::set_hook(Box::new(move |info| {
-        give_back();
+        if taken().as_ref().is_some_and(|taken| taken.by == thread::current().id()) {
+            give_back();
+        }
         before(info);
     }));
 }
@@ -191,7 +206,7 @@ fn give_back_on_panic() {
 /// Writes to the terminal while it is ours. What else there is would land in the user's shell.
 fn send(bytes: &[u8]) -> io::Result<()> {
     let taken = taken();
-    if *taken { write_out(bytes) } else { Ok(()) }
+    if taken.is_some() { write_out(bytes) } else { Ok(()) }
 }
 
 fn write_out(bytes: &[u8]) -> io::Result<()> {
@@ -278,9 +293,9 @@ mod tests {
 
     #[test]
     fn a_terminal_that_was_not_taken_is_not_written_to() {
-        assert!(!*taken());
+        assert!(taken().is_none());
         send(b"\x1b[2Jthis would clear the screen of the one who runs the tests").expect("nothing");
         give_back();
-        assert!(!*taken());
+        assert!(taken().is_none());
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! A key goes to what lies on top: a popup takes it first; then the actions that count where the focus is; then those that count everywhere.
 
+pub(in crate::tui) mod compare;
 mod copy;
 mod focus;
 #[cfg(test)]
@@ -17,7 +18,7 @@ pub(in crate::tui) use step::{beat, go};
 pub(in crate::tui) use told::told;
 
 use crate::tui::action::Action;
-use crate::tui::model::{Effect, Model};
+use crate::tui::model::{Effect, Model, Pane};
 use crate::tui::popups::Question;
 use crate::tui::worker::Ask;
 
@@ -49,6 +50,8 @@ pub(in crate::tui) fn act(model: &mut Model, action: Action) {
         | A::RunOn
         | A::Cancel
         | A::Check => step::act(model, action),
+        A::Compare | A::NextDivergence => compare::act(model, action),
+        A::Select if model.focus == Pane::Differences => compare::act(model, action),
         A::Up
         | A::Down
         | A::PageUp
@@ -69,10 +72,12 @@ pub(in crate::tui) fn act(model: &mut Model, action: Action) {
         | A::FocusDifferences
         | A::Maximise => focus::act(model, action),
         A::Copy => copy::copy(model),
+        A::CopyCommand => copy::command(model),
         A::Search => popup::ask(model, Question::Search),
         A::NextMatch => search::step(model, true),
         A::PreviousMatch => search::step(model, false),
         A::GoTo => popup::ask(model, Question::GoTo),
+        A::CompareWith => popup::ask(model, Question::CompareWith),
         A::Record
         | A::RecordNew
         | A::Point
