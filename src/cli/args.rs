@@ -161,7 +161,7 @@ pub(super) struct Replay {
     /// The recording
     #[arg(value_name = "REC", value_hint = ValueHint::FilePath)]
     pub(super) recording: PathBuf,
-    /// Stop after this event, or after a stage of it, such as 4.MC
+    /// Stop after this event, or after a stage of it, such as 4.MC; or before the first one (`start`)
     #[arg(long, value_name = "EVENT[.STAGE]")]
     pub(super) until: Option<Until>,
     /// Stop after the first event with a broken invariant (`finding`), that was rejected (`rejected`, `rejected=miss`), that counted something

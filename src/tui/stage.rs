@@ -9,13 +9,14 @@ use crossterm::event::{Event, KeyEvent};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
+use super::compare::Comparisons;
 use super::key::Key;
 use super::keys::Keys;
 use super::model::{Effect, Model};
 use super::run::Start;
 use super::theme::Theme;
 use super::worker::{Ask, Desk, Line, Told};
-use super::{events, lower, update, view};
+use super::{events, update, view};
 use crate::report::EventReport;
 
 /// Rounds of asking and telling after which nothing new can come of it.
@@ -23,7 +24,7 @@ const ROUNDS: usize = 10_000;
 
 /// See the module.
 pub struct Stage {
-    model: Model,
+    pub(in crate::tui) model: Model,
     theme: Theme,
     keys: Keys,
     desk: Desk,
@@ -35,7 +36,8 @@ pub struct Stage {
 impl Stage {
     /// The screen as it is once everything is done that it begins with. With steady times no figure depends on the machine.
     pub fn open(start: &Start, theme: Theme, size: [u16; 2], steady: bool) -> Self {
-        let model = Model { size, ..Model::default() };
+        let comparisons = Comparisons::first(start.compare.clone());
+        let model = Model { size, comparisons, ..Model::default() };
         let keys = Keys::new(&start.config.keys);
         let desk = Desk::new(start.renderer, start.budget_bytes).with_drafts(start.drafts.clone());
         let mut stage = Self { model, theme, keys, desk, steady, copied: Vec::new() };
@@ -81,7 +83,6 @@ impl Stage {
         let [width, height] = self.model.size;
         let mut buffer = Buffer::empty(Rect::new(0, 0, width, height));
         view::draw(&self.model, &self.theme, &self.keys, &mut buffer);
-        lower::lower(&mut buffer, self.theme.depth(), self.theme.base());
         buffer
     }
 
@@ -95,6 +96,7 @@ impl Stage {
             }
             effects.into_iter().for_each(|effect| self.carry_out(effect));
         }
+        debug_assert!(false, "one thing leads to another without end");
     }
 
     fn carry_out(&mut self, effect: Effect) {

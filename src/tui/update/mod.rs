@@ -72,6 +72,7 @@ pub(in crate::tui) fn act(model: &mut Model, action: Action) {
         | A::FocusDifferences
         | A::Maximise => focus::act(model, action),
         A::Copy => copy::copy(model),
+        A::CopyCommand => copy::command(model),
         A::Search => popup::ask(model, Question::Search),
         A::NextMatch => search::step(model, true),
         A::PreviousMatch => search::step(model, false),
