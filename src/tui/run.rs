@@ -48,16 +48,21 @@ enum News {
     Encoded(Box<Result<Encoded, String>>),
 }
 
+/// How long what was recorded may take to be kept when all is over.
+const GRACE: Duration = Duration::from_secs(10);
+
 /// How long nothing may happen before signals are looked for.
 const PATIENCE: Duration = Duration::from_millis(200);
 
 /// Runs it until it is left. The terminal has to be there.
 pub fn run(start: Start) -> io::Result<()> {
     let mut app = App::new(start)?;
-    while !app.model.done && !app.terminal.ended() {
-        app.turn()?;
+    let mut turned = Ok(());
+    while turned.is_ok() && !app.model.done && !app.terminal.ended() {
+        turned = app.turn();
     }
-    Ok(())
+    app.end();
+    turned
 }
 
 /// How pictures reach the terminal. Its cells may have another size than before.
@@ -128,6 +133,19 @@ impl App {
         self.listen()?;
         self.beat();
         Ok(())
+    }
+
+    /// Ends. Who has recorded waits until that is kept.
+    fn end(mut self) {
+        let records = self.model.recorder.is_some() || self.model.kept.unsaved;
+        for effect in std::mem::take(&mut self.model.effects) {
+            if let Effect::Ask(ask) = effect {
+                self.worker.ask(ask);
+            }
+        }
+        if records {
+            self.worker.finish(GRACE);
+        }
     }
 
     /// Does what the model wants done outside.

@@ -58,9 +58,10 @@ pub(in crate::tui) fn told(model: &mut Model, told: Told) {
 
 /// What ran stays on the screen; nothing further can be asked about it.
 fn broken(model: &mut Model, why: &str) {
-    (model.standing, model.playing, model.wanted, model.recorder) = (None, None, None, None);
+    (model.standing, model.playing, model.wanted) = (None, None, None);
     model.picture.forget();
     model.complain(format!("a bug of lancet's: panicked: {why}; open the recording again to go on"));
+    record::broken(model);
 }
 
 fn open(model: &mut Model, opened: Opened) {

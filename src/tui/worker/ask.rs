@@ -96,7 +96,7 @@ pub(in crate::tui) enum Hand {
 impl Ask {
     /// Whether it comes before pictures, and before what nobody waits for.
     pub(in crate::tui) fn is_urgent(&self) -> bool {
-        let quiet = matches!(self, Self::Shoot(_) | Self::Learn | Self::Drafts);
+        let quiet = matches!(self, Self::Shoot(_) | Self::Learn);
         !quiet && !matches!(self, Self::Compare(_) | Self::StopComparing)
     }
 
@@ -109,7 +109,8 @@ impl Ask {
 
     /// Whether it puts an end to what is being done.
     pub(in crate::tui) fn interrupts(&self) -> bool {
-        self.is_urgent() && !matches!(self, Self::Check | Self::Identify { .. } | Self::SavePicture { .. })
+        let looks = matches!(self, Self::Check | Self::Identify { .. } | Self::SavePicture { .. });
+        self.is_urgent() && !looks && !matches!(self, Self::Drafts)
     }
 }
 
