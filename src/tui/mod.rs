@@ -17,6 +17,7 @@ pub mod config;
 mod edit;
 pub mod environment;
 mod events;
+mod fuzzy;
 pub mod image;
 pub mod key;
 mod keys;

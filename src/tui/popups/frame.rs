@@ -1,7 +1,7 @@
 //! The border of a popup, and where it is.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Clear, Widget};
@@ -13,9 +13,13 @@ use crate::tui::theme::{Role, Theme};
 /// Below this many columns and rows a border would leave nothing to see.
 const LEAST: [u16; 2] = [12, 5];
 
-/// The middle of a screen, with a margin where there is room for one.
+/// From this many rows on, the first and the last of the screen stay in sight: they say where one is, and what went wrong.
+const HIGH: u16 = 8;
+
+/// The middle of a screen.
 pub(super) fn area(size: [u16; 2], wants: [usize; 2]) -> Rect {
-    let [width, height] = [0, 1].map(|axis| u16::try_from(wants[axis]).unwrap_or(u16::MAX).min(size[axis]));
+    let most = [size[0], if size[1] < HIGH { size[1] } else { size[1] - 2 }];
+    let [width, height] = [0, 1].map(|axis| u16::try_from(wants[axis]).unwrap_or(u16::MAX).min(most[axis]));
     Rect { x: (size[0] - width) / 2, y: (size[1] - height) / 2, width, height }
 }
 
@@ -85,9 +89,4 @@ pub(super) fn lines(lines: &[String], style: Style, area: Rect, from: usize, buf
         buffer.set_stringn(area.x, area.y, line, usize::from(area.width) * usize::from(area.height), style);
     }
     from + lines.len()
-}
-
-/// The row of an area that a cell is in.
-pub(super) fn row_of(area: Rect, at: Position) -> Option<usize> {
-    area.contains(at).then(|| usize::from(at.y - area.y))
 }

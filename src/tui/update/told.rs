@@ -1,8 +1,9 @@
 //! What the worker tells.
 
-use super::record;
+use super::{record, stops};
 use crate::tui::action::Action;
 use crate::tui::model::{Model, Place, Progress};
+use crate::tui::popups::{Menu, Popup, What};
 use crate::tui::worker::{Ask, Opened, Told};
 
 /// Takes a word of the worker's.
@@ -13,6 +14,7 @@ pub(in crate::tui) fn told(model: &mut Model, told: Told) {
             model.timing.add(&report);
             record::reported(model, &report);
             model.reports.push(report);
+            played(model);
         }
         Told::End(end) => model.end = Some(*end),
         Told::Finding(finding) => model.finding = Some(*finding),
@@ -21,7 +23,10 @@ pub(in crate::tui) fn told(model: &mut Model, told: Told) {
             record::stood(model);
         }
         Told::Recorded(recorded) => record::recorded(model, *recorded),
-        Told::Saved(path) => record::saved(model, path),
+        Told::Saved(path) => {
+            record::saved(model, path);
+            model.done |= model.leaving;
+        }
         Told::Drafts(drafts) => record::drafts(model, drafts),
         Told::Progress { what, done, of } => model.progress = Some(Progress { what, done, of }),
         Told::Idle { urgent } => idle(model, urgent),
@@ -42,7 +47,17 @@ pub(in crate::tui) fn told(model: &mut Model, told: Told) {
             model.say(format!("stopped: {why}"));
         }
         Told::Broken(why) => broken(model, &why),
-        Told::Failed(why) => model.complain(why),
+        Told::Failed(why) => {
+            model.leaving = false;
+            model.complain(why);
+        }
+    }
+}
+
+/// Playing went to an event of which nothing was known; now it is known whether it meets a breakpoint.
+fn played(model: &mut Model) {
+    if model.playing.is_some() && model.place == Place::after(model.reports.len()) {
+        stops::halt(model, model.reports.len() - 1);
     }
 }
 
@@ -53,11 +68,16 @@ fn broken(model: &mut Model, why: &str) {
 }
 
 fn open(model: &mut Model, opened: Opened) {
-    let Model { size, focus, maximised, pace, stops, memory, effects, asked, answered, kept, .. } =
+    let Model { size, focus, maximised, pace, stops, popup, memory, effects, asked, answered, kept, .. } =
         std::mem::take(model);
     let stays =
         Model { size, focus, maximised, pace, stops, memory, effects, asked, answered, ..Model::default() };
-    *model = Model { opened: Some(opened), ..stays };
+    // What was asked about what is gone is gone, too.
+    let stays_open = |popup: &Popup| {
+        matches!(popup, Popup::Menu(Menu { what: What::Help | What::Palette | What::Stops, .. }))
+    };
+    let popup = popup.filter(stays_open);
+    *model = Model { opened: Some(opened), popup, ..stays };
     model.ask(Ask::Learn);
     record::opened(model, kept);
 }
