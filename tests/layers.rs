@@ -127,6 +127,7 @@ const BANS: &[Ban] = &[
             "tui/terminal/mod.rs",
             "tui/image/encoder.rs",
             "tui/worker/mod.rs",
+            "tui/worker/compare.rs",
         ],
         why: "whole recordings run side by side, and beside a screen; within a run there is one order",
     },

@@ -227,6 +227,7 @@ pub(super) enum Ground {
 
 /// Step through a recording in the terminal, and record new ones
 #[derive(Debug, clap::Args)]
+#[cfg_attr(feature = "tui", command(after_help = settings()))]
 pub(super) struct Tui {
     /// The recording
     #[arg(value_name = "REC", value_hint = ValueHint::FilePath)]
@@ -234,6 +235,12 @@ pub(super) struct Tui {
     /// Who renders
     #[arg(long, value_enum, default_value_t, value_name = "WHO")]
     pub(super) renderer: Renderer,
+    /// Compare it with its goldens at once
+    #[arg(long, requires = "recording")]
+    pub(super) compare: bool,
+    /// Compare it with another run at once: the report of a replay, a recording or a script
+    #[arg(long, value_name = "F", value_hint = ValueHint::FilePath, requires = "recording", conflicts_with = "compare")]
+    pub(super) compare_with: Option<PathBuf>,
     /// Megabytes that going back may take, beside what undo and redo need
     #[arg(long, value_name = "MB", default_value_t = 256)]
     pub(super) budget: u32,
@@ -252,6 +259,13 @@ pub(super) struct Tui {
     /// Colours for a dark ground, or for a light one [default: the settings', or the terminal's]
     #[arg(long, value_enum, value_name = "GROUND")]
     pub(super) theme: Option<Ground>,
+}
+
+/// What can be set, in the help.
+#[cfg(feature = "tui")]
+fn settings() -> String {
+    let example: String = crate::tui::config::EXAMPLE.lines().map(|line| format!("  {line}\n")).collect();
+    format!("Settings:\n{example}\n`?` in the terminal shows every action with its keys and its name.")
 }
 
 /// A map to write.

@@ -13,7 +13,7 @@ use crate::verify;
 const SHOWN: usize = 10;
 
 pub(super) fn run(typed: &Diff, console: &mut Console<'_>) -> Done {
-    let diff = verify::against_run(&typed.b, &typed.a).map_err(Failure::new)?;
+    let diff = verify::against_run(&typed.b, &typed.a, &verify::unwatched).map_err(Failure::new)?;
     json::write(&diff, typed.json.to.as_ref(), console)?;
     show(&diff, json::text([&typed.json.to], console))?;
     Ok(if diff.is_empty() { Status::Verified } else { Status::Diverged })

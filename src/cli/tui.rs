@@ -13,7 +13,7 @@ pub(super) fn run(typed: &Tui, console: &mut Console<'_>) -> Done {
     use crate::tui::theme::Base;
     use crate::tui::{self, Drafts, Start};
 
-    let mut config = Config::load(typed.config.as_deref(), &tui::action_names()).map_err(Failure::new)?;
+    let mut config = Config::load(typed.config.as_deref(), &tui::actions()).map_err(Failure::new)?;
     let base = typed.theme.map(|ground| match ground {
         Ground::Dark => Base::Dark,
         Ground::Light => Base::Light,
@@ -22,6 +22,7 @@ pub(super) fn run(typed: &Tui, console: &mut Console<'_>) -> Done {
     let start = Start {
         recording: typed.recording.clone(),
         renderer: pixels::choice(typed.renderer),
+        compare: compare(typed),
         budget_bytes: (typed.budget as usize) << 20,
         drafts: Drafts::from_environment(),
         config,
@@ -77,6 +78,14 @@ fn screen(
 /// No screen has more.
 #[cfg(feature = "tui")]
 const MOST_CELLS: u32 = 1 << 20;
+
+/// What to compare it with at once.
+#[cfg(feature = "tui")]
+fn compare(typed: &Tui) -> Option<crate::tui::With> {
+    use crate::tui::With;
+    let run = typed.compare_with.clone().map(With::Run);
+    run.or_else(|| typed.compare.then_some(With::Goldens))
+}
 
 #[cfg(not(feature = "tui"))]
 pub(super) fn run(_: &Tui, _: &mut Console<'_>) -> Done {

@@ -33,6 +33,7 @@ pub mod screen;
 mod shot;
 mod stage;
 mod status;
+mod tabs;
 pub mod terminal;
 pub mod text;
 pub mod theme;
@@ -40,11 +41,12 @@ mod update;
 mod view;
 mod worker;
 
+pub use compare::With;
 pub use record::Drafts;
 pub use run::{Start, run};
 pub use stage::Stage;
 
-/// The names of all actions, as the configuration gives them keys.
-pub fn action_names() -> Vec<&'static str> {
-    action::ACTIONS.iter().map(|row| row.name).collect()
+/// All actions, as the configuration gives them keys.
+pub fn actions() -> Vec<config::Known> {
+    action::ACTIONS.iter().map(|row| config::Known { name: row.name, scope: row.scope as usize }).collect()
 }

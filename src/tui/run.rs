@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 
 use crossterm::event::Event;
 
+use super::compare::{Comparisons, With};
 use super::config::Config;
 use super::environment::Environment;
 use super::keys::Keys;
@@ -17,7 +18,7 @@ use super::model::{Effect, Model};
 use super::record::Drafts;
 use super::terminal::{self, Terminal};
 use super::theme::Theme;
-use super::worker::{Ask, Desk, Told, Worker};
+use super::worker::{Desk, Told, Worker};
 use super::{events, update, view};
 use crate::render::Choice;
 
@@ -32,6 +33,8 @@ pub struct Start {
     pub budget_bytes: usize,
     /// Where what is recorded is kept until it is saved.
     pub drafts: Drafts,
+    /// What to compare it with at once.
+    pub compare: Option<With>,
     /// The user's settings.
     pub config: Config,
 }
@@ -73,9 +76,9 @@ impl App {
         let keys = Keys::new(&start.config.keys);
         let mut terminal = Terminal::take(start.config.mouse)?;
         let size = terminal.size()?;
-        let mut model = Model { size: [size.width, size.height], ..Model::default() };
-        start.recording.into_iter().for_each(|path| model.ask(Ask::Open(path)));
-        model.ask(Ask::Drafts);
+        let comparisons = Comparisons::first(start.compare);
+        let mut model = Model { size: [size.width, size.height], comparisons, ..Model::default() };
+        update::begin(&mut model, start.recording);
         // The first frame comes before anything that takes time.
         terminal.draw(|frame| view::draw(&model, &theme, &keys, frame.buffer_mut()))?;
         let (send, news) = channel();
@@ -109,7 +112,7 @@ impl App {
             match effect {
                 Effect::Ask(ask) => self.worker.ask(ask),
                 Effect::Copy(text) => match self.terminal.copy(&text) {
-                    Ok(()) => self.model.say("copied"),
+                    Ok(()) => {}
                     Err(error) => self.model.complain(format!("not copied: {error}")),
                 },
                 Effect::Suspend => self.terminal.suspend()?,

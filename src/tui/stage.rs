@@ -14,7 +14,7 @@ use super::keys::Keys;
 use super::model::{Effect, Model};
 use super::run::Start;
 use super::theme::Theme;
-use super::worker::{Ask, Desk, Line, Told};
+use super::worker::{Desk, Line, Told};
 use super::{events, lower, update, view};
 use crate::report::EventReport;
 
@@ -39,7 +39,7 @@ impl Stage {
         let keys = Keys::new(&start.config.keys);
         let desk = Desk::new(start.renderer, start.budget_bytes);
         let mut stage = Self { model, theme, keys, desk, steady, copied: Vec::new() };
-        start.recording.iter().for_each(|path| stage.model.ask(Ask::Open(path.clone())));
+        update::begin(&mut stage.model, start.recording.clone());
         stage.settle();
         stage
     }
@@ -99,10 +99,7 @@ impl Stage {
                 let told = heard.0.into_iter().map(|told| if steady { steadied(told) } else { told });
                 told.for_each(|told| update::told(&mut self.model, told));
             }
-            Effect::Copy(text) => {
-                self.copied.push(text);
-                self.model.say("copied");
-            }
+            Effect::Copy(text) => self.copied.push(text),
             Effect::Suspend | Effect::Redraw => {}
         }
     }

@@ -47,6 +47,29 @@ pub fn pad_start(text: &str, width: usize) -> String {
     " ".repeat(width - self::width(&text)) + &text
 }
 
+/// A text in lines of at most so many cells, broken between words where that can be; what is beyond the last line is cut off.
+pub fn wrap(text: &str, width: usize, lines: usize) -> Vec<String> {
+    let mut rest = line(text);
+    let mut wrapped = Vec::new();
+    while wrapped.len() + 1 < lines && self::width(&rest) > width && width > 0 {
+        let head = head(&rest, width);
+        // A word that is longer than the line is broken anywhere.
+        let at = rest[..=head.min(rest.len() - 1)].rfind(' ').filter(|at| *at > 0).unwrap_or(head);
+        let next = rest.split_off(at);
+        wrapped.push(std::mem::replace(&mut rest, next.trim_start().to_owned()));
+    }
+    wrapped.push(fit(&rest, width));
+    wrapped
+}
+
+/// How many bytes of a line fit in so many cells; at least its first grapheme.
+fn head(line: &str, width: usize) -> usize {
+    let span = Span::raw(line);
+    let cells = cells(&span);
+    let count = count_within(cells.iter(), width).max(1);
+    cells[..count.min(cells.len())].iter().map(|(symbol, _)| symbol.len()).sum()
+}
+
 /// Its graphemes and their widths.
 fn cells<'a>(span: &'a Span<'a>) -> Vec<(&'a str, usize)> {
     let symbols = span.styled_graphemes(Style::default()).map(|grapheme| grapheme.symbol);
@@ -165,6 +188,22 @@ mod tests {
         assert_eq!(fit("漢字漢字", 4), "漢…", "half a character is none");
         assert_eq!(pad("漢字漢字", 4), "漢… ");
         assert_eq!(pad_start("12", 5), "   12");
+    }
+
+    #[test]
+    fn long_texts_go_over_several_lines_and_only_the_last_is_cut() {
+        assert_eq!(wrap("one two three four", 9, 3), ["one two", "three", "four"]);
+        assert_eq!(wrap("one two three four", 9, 2), ["one two", "three fo…"]);
+        assert_eq!(wrap("one two", 7, 3), ["one two"]);
+        assert_eq!(wrap("one two", 3, 3), ["one", "two"]);
+        assert_eq!(wrap("some/where/far.lancet", 8, 3), ["some/whe", "re/far.l", "ancet"]);
+        assert_eq!(wrap("漢字 漢字", 5, 3), ["漢字", "漢字"]);
+        assert_eq!(wrap("a", 0, 3), [""]);
+        for (width, lines) in (0..9).flat_map(|width| (0..4).map(move |lines| (width, lines))) {
+            for line in wrap("漢字 👩‍👩‍👧 plain\u{1b} text of words", width, lines) {
+                assert!(self::width(&line) <= width, "{line:?} in {width}");
+            }
+        }
     }
 
     #[test]

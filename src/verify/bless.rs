@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::compare::compare;
 use super::golden::{Found, Stored};
-use super::one::{Failure, Open, open_file, run};
+use super::one::{Failure, Open, open_file, run, unwatched};
 use super::suite::{find, in_parallel};
 use super::{Divergence, Progress, facts, home};
 use crate::assets;
@@ -116,7 +116,7 @@ fn objection(options: &BlessOptions) -> Option<String> {
 }
 
 fn bless_one(path: &Path, options: &BlessOptions, open: &Open<'_>) -> Blessed {
-    let found = match run(path, &Options::default(), options.studio.as_deref(), open) {
+    let found = match run(path, &Options::default(), options.studio.as_deref(), open, &unwatched) {
         Ok(found) => found,
         Err(Failure::BadInput(why) | Failure::Panic(why)) => return refused(path, why),
     };

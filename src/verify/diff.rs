@@ -13,7 +13,7 @@ use super::Divergence;
 use super::compare::compare;
 use super::facts;
 use super::golden::{Found, Stored};
-use super::one::run_opened;
+use super::one::{Watch, run_opened};
 use super::values::Values;
 use crate::assets;
 use crate::recording::{AnyRecording, first_difference};
@@ -33,17 +33,17 @@ pub struct Side {
 
 impl Side {
     /// Reads the report of a replay, or replays a recording or a script. An error says what is wrong with the file.
-    pub fn open(path: &Path) -> Result<Self, String> {
+    pub fn open(path: &Path, watch: Watch<'_>) -> Result<Self, String> {
         let bytes = assets::read_file(path).map_err(|error| error.to_string())?;
         match report(&bytes).map_err(|why| format!("{}: {why}", path.display()))? {
             Some(run) => Ok(Self { recording: None, run, deltas: Vec::new() }),
-            None => Self::replay(path),
+            None => Self::replay(path, watch),
         }
     }
 
-    fn replay(path: &Path) -> Result<Self, String> {
+    fn replay(path: &Path, watch: Watch<'_>) -> Result<Self, String> {
         let case = Case::open(path).map_err(|error| error.to_string())?;
-        let found = run_opened(&path.display().to_string(), &Options::default(), None, |options| {
+        let found = run_opened(&path.display().to_string(), &Options::default(), None, watch, |options| {
             case.replay(&case.recording, options, None).map_err(|error| error.to_string())
         });
         let Found { run, deltas, .. } = found.map_err(|failure| failure.why())?;

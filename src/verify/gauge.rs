@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::bless::BlessOptions;
 use super::golden::{Found, Stored};
 use super::image::{Distance, Known, Metric, Skin, measure, prove};
-use super::one::{Failure, Open, open_file, run};
+use super::one::{Failure, Open, open_file, run, unwatched};
 use super::suite::{Recordings, find, in_parallel, read_gates};
 use super::{Progress, facts, home};
 use crate::assets;
@@ -106,7 +106,7 @@ struct Look {
 
 impl Look {
     fn at(path: &Path, studio: &dyn Studio, open: &Open<'_>) -> Self {
-        match run(path, &Options::default(), Some(studio), open) {
+        match run(path, &Options::default(), Some(studio), open, &unwatched) {
             Ok(found) => Self::of(path, &found),
             Err(Failure::BadInput(why) | Failure::Panic(why)) => {
                 Self { errors: vec![format!("{}: {why}", home::name(path))], ..Self::default() }

@@ -52,7 +52,7 @@ pub use image::{
 };
 pub use junit::junit;
 pub use merge::{MergeError, merge};
-pub use one::failure;
+pub use one::{Watch, failure, unwatched};
 pub use report::{RecordingReport, Verdict, VerifyReport};
 pub use shard::{Shard, ShardReport};
 pub use skips::Skips;

@@ -18,6 +18,14 @@ use crate::replay::{self, Options, Planting, Replay};
 pub(super) type Open<'a> =
     dyn Fn(&Path, Options, Option<&dyn Studio>) -> Result<Box<dyn Replay>, String> + Sync + 'a;
 
+/// Whoever watches a run: told of how many events have run, of how many there are, and answering whether to go on.
+pub type Watch<'a> = &'a dyn Fn(usize, usize) -> bool;
+
+/// Nobody watches.
+pub fn unwatched(_: usize, _: usize) -> bool {
+    true
+}
+
 /// Opens a recording's file.
 pub(super) fn open_file(
     path: &Path,
@@ -50,9 +58,10 @@ pub(super) fn run(
     options: &Options,
     studio: Option<&dyn Studio>,
     open: &Open<'_>,
+    watch: Watch<'_>,
 ) -> Result<Found, Failure> {
     let adapter = studio.map(|studio| studio.adapter());
-    run_opened(&home::name(path), options, adapter, |options| open(path, options, studio))
+    run_opened(&home::name(path), options, adapter, watch, |options| open(path, options, studio))
 }
 
 /// Replays to its end what is opened, under a name.
@@ -60,13 +69,14 @@ pub(super) fn run_opened(
     name: &str,
     options: &Options,
     adapter: Option<&Adapter>,
+    watch: Watch<'_>,
     open: impl FnOnce(Options) -> Result<Box<dyn Replay>, String>,
 ) -> Result<Found, Failure> {
     let planted = options.plant.is_some();
     let options = Options { keep_deltas: true, budget_bytes: 0, ..options.clone() };
     let replayed = catch_unwind(AssertUnwindSafe(|| {
         let mut replay = open(options)?;
-        replay.finish();
+        finish(replay.as_mut(), watch)?;
         if let Some(error) = replay.failure() {
             return Err(format!("it cannot be rendered: {error}"));
         }
@@ -82,6 +92,16 @@ pub(super) fn run_opened(
         Ok(found) => found.map_err(Failure::BadInput),
         Err(panic) => Err(Failure::Panic(panic_text(panic.as_ref()))),
     }
+}
+
+/// Runs all events, for as long as whoever watches says so.
+fn finish(replay: &mut dyn Replay, watch: Watch<'_>) -> Result<(), String> {
+    while watch(replay.position(), replay.len()) {
+        if replay.step().is_none() {
+            return Ok(());
+        }
+    }
+    Err(format!("stopped before event {} of {}", replay.position(), replay.len()))
 }
 
 fn panic_text(panic: &(dyn Any + Send)) -> String {
@@ -103,7 +123,7 @@ pub(super) fn verify_one(
     rules: Option<&Rules>,
     open: &Open<'_>,
 ) -> (RecordingReport, Option<Detail>) {
-    let (report, seen) = look(path, &options.replay, options.studio.as_deref(), rules, open);
+    let (report, seen) = look(path, &options.replay, options.studio.as_deref(), rules, open, &unwatched);
     let seen = seen.filter(|_| options.details);
     let detail = seen.map(|Seen { found, stored }| Detail::new(&found, &stored, &report.images));
     (report, detail)
@@ -116,11 +136,12 @@ pub(super) fn look(
     studio: Option<&dyn Studio>,
     rules: Option<&Rules>,
     open: &Open<'_>,
+    watch: Watch<'_>,
 ) -> (RecordingReport, Option<Seen>) {
     let clock = Instant::now();
     let mut report = RecordingReport::new(home::name(path));
     let mut seen = None;
-    match run(path, options, studio, open) {
+    match run(path, options, studio, open, watch) {
         Ok(found) => {
             let stored = Stored::read(&home::goldens(path), &found);
             report.images = judge(&found, &stored, rules);

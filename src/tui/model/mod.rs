@@ -15,7 +15,7 @@ pub(in crate::tui) use timing::{Spread, Timing};
 
 use crate::canvas::frame::Orbit;
 use crate::report::{EventReport, Finding, StateReport, Stop};
-use crate::tui::compare::Differences;
+use crate::tui::compare::{Comparing, Comparisons, Differences};
 use crate::tui::list::List;
 use crate::tui::picture::PictureState;
 use crate::tui::popups::Popup;
@@ -143,6 +143,10 @@ pub(in crate::tui) struct Model {
     pub(in crate::tui) picture: PictureState,
     /// What it is compared with, and how it differs.
     pub(in crate::tui) differences: Option<Differences>,
+    /// The comparison that is being made.
+    pub(in crate::tui) comparing: Option<Comparing>,
+    /// Those that were begun, and that are to be.
+    pub(in crate::tui) comparisons: Comparisons,
     /// The recording that is being made.
     pub(in crate::tui) recorder: Option<Recorder>,
     /// What becomes of what was recorded.
@@ -233,7 +237,10 @@ impl Model {
 
     /// Whether the worker is at work.
     pub(in crate::tui) fn is_busy(&self) -> bool {
-        self.answered < self.asked || self.progress.is_some() || self.picture.is_awaited()
+        self.answered < self.asked
+            || self.progress.is_some()
+            || self.comparing.is_some()
+            || self.picture.is_awaited()
     }
 
     /// Chooses the rows of the place in the timeline and among the stages.

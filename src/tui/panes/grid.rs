@@ -92,7 +92,10 @@ mod tests {
 
     fn grid() -> Grid {
         let row = |cells: [&str; 3]| cells.map(String::from).to_vec();
-        Grid::new(&row(["kind", "faces", "length"]), [row(["FE", "f1", "0.5"]), row(["EE", "f23456789", "12"])])
+        Grid::new(
+            &row(["kind", "faces", "length"]),
+            [row(["FE", "f1", "0.5"]), row(["EE", "f23456789", "12"])],
+        )
     }
 
     #[test]

@@ -49,9 +49,9 @@ fn rows_of(model: &Model) -> Vec<Row> {
 fn names(model: &Model) -> Vec<String> {
     match model.shown() {
         Some(report) => report.sizes.keys().cloned().collect(),
-        None => model.here().map_or(Vec::new(), |here| {
-            here.sizes.iter().map(|(name, _)| (*name).to_owned()).collect()
-        }),
+        None => model
+            .here()
+            .map_or(Vec::new(), |here| here.sizes.iter().map(|(name, _)| (*name).to_owned()).collect()),
     }
 }
 
@@ -62,10 +62,10 @@ fn sizes(model: &Model) -> Vec<[String; 4]> {
         standing.sizes.iter().find(|(other, _)| *other == name).map(|(_, size)| *size)
     };
     let row = |name: String| {
-        let [before, after] = model.shown().and_then(|report| report.sizes.get(&name).copied()).map_or(
-            [None; 2],
-            |[before, after]| [Some(before), Some(after)],
-        );
+        let [before, after] = model
+            .shown()
+            .and_then(|report| report.sizes.get(&name).copied())
+            .map_or([None; 2], |[before, after]| [Some(before), Some(after)]);
         // Within an event the state is neither; at the beginning there is nothing before.
         let now = if model.place.stage.is_some() || before.is_none() { here(&name) } else { after };
         let written = |size: Option<u64>| size.map_or("…".into(), text::count);

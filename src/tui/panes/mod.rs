@@ -4,6 +4,7 @@
 //! about, and which have to do with what is selected. Clicks, keys, search and copying work on these and know no pane.
 
 mod checks;
+mod differences;
 mod grid;
 mod mesh;
 mod picture;
@@ -39,7 +40,7 @@ pub(super) fn draw(pane: Pane, model: &Model, theme: &Theme, area: Rect, buffer:
         Pane::Picture => picture::draw(model, theme, area, buffer),
         Pane::Tables => tables::draw(model, theme, area, body, buffer),
         Pane::Checks => checks::draw(model, theme, area, buffer),
-        Pane::Differences => {}
+        Pane::Differences => differences::draw(model, theme, area, buffer),
     }
 }
 
@@ -58,7 +59,7 @@ pub(super) fn about(pane: Pane, model: &Model) -> String {
         Pane::Tables => tables::about(model),
         Pane::Checks => checks::about(model),
         Pane::Picture => picture::about(model),
-        Pane::Differences => String::new(),
+        Pane::Differences => differences::about(model),
     }
 }
 
@@ -70,7 +71,8 @@ pub(super) fn len(model: &Model, pane: Pane) -> usize {
         Pane::Mesh => mesh::len(model),
         Pane::Tables => tables::len(model),
         Pane::Checks => checks::len(model),
-        Pane::Picture | Pane::Differences => 0,
+        Pane::Differences => differences::len(model),
+        Pane::Picture => 0,
     }
 }
 
@@ -98,7 +100,8 @@ pub(super) fn ids(model: &Model, pane: Pane) -> Vec<String> {
         Pane::Stages => stages::ids(model),
         Pane::Tables => tables::ids(model),
         Pane::Checks => checks::ids(model),
-        Pane::Mesh | Pane::Picture | Pane::Differences => Vec::new(),
+        Pane::Differences => differences::ids(model),
+        Pane::Mesh | Pane::Picture => Vec::new(),
     }
 }
 
@@ -133,6 +136,3 @@ pub(super) fn chosen(model: &mut Model, pane: Pane) {
 pub(super) fn next_table(model: &mut Model) {
     tables::next(model);
 }
-
-#[cfg(test)]
-mod tests;

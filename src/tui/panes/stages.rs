@@ -145,7 +145,10 @@ impl Look<'_> {
         let mut spans =
             vec![self.mark(at, row), Span::styled(text::pad(row.id(), self.ids), weight(Role::Title))];
         if self.width >= WITH_TITLES {
-            spans.push(Span::styled(format!("  {}", text::pad(&title(self.model, row), TITLE)), weight(Role::Text)));
+            spans.push(Span::styled(
+                format!("  {}", text::pad(&title(self.model, row), TITLE)),
+                weight(Role::Text),
+            ));
         }
         spans.push(Span::raw(" "));
         if let Some(reason) = row.skipped() {

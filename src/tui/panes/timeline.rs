@@ -131,8 +131,7 @@ impl Entry<'_> {
     fn head(&self) -> Vec<Span<'static>> {
         let style = |role| self.theme.style(role);
         let digits = self.model.len().saturating_sub(1).to_string().len().max(2);
-        let stops =
-            self.report.is_some_and(|report| self.model.stops.iter().any(|stop| stop.hits(report)));
+        let stops = self.report.is_some_and(|report| self.model.stops.iter().any(|stop| stop.hits(report)));
         let selected = self.report.is_some_and(|report| self.has_selected(report));
         let (mark, role) = self.report.map_or((" ", Role::Faint), outcome);
         vec![

@@ -57,7 +57,10 @@ mod tests {
     #[test]
     fn what_is_no_figure_stays() {
         assert_eq!(whole(r#"{"checkpoint":"1e5"}"#), "checkpoint 1e5");
-        assert_eq!(whole(r#"{"cut":{"from":{"node":17},"to":{"edge":[40,0.0]}}}"#), "cut from node 17 to edge 40 0");
+        assert_eq!(
+            whole(r#"{"cut":{"from":{"node":17},"to":{"edge":[40,0.0]}}}"#),
+            "cut from node 17 to edge 40 0"
+        );
         assert_eq!(whole(r#"{"undo":{}}"#), "undo");
         assert_eq!(whole(""), "");
     }

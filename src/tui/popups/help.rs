@@ -40,8 +40,7 @@ pub(in crate::tui) enum Entry {
 pub(in crate::tui) fn entries(typed: &str) -> Vec<Entry> {
     let scopes = SCOPES.iter().flat_map(|(scope, title)| {
         let rows = ACTIONS.iter().filter(|row| row.scope == *scope);
-        let found: Vec<Entry> =
-            rows.filter_map(|row| Some(Entry::Action(row, found(typed, row)?))).collect();
+        let found: Vec<Entry> = rows.filter_map(|row| Some(Entry::Action(row, found(typed, row)?))).collect();
         let heading = (!found.is_empty()).then_some(Entry::Heading(title));
         heading.into_iter().chain(found)
     });

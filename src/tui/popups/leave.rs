@@ -38,5 +38,9 @@ pub(super) fn rows(pen: Pen<'_>) -> Vec<Row> {
 fn row(key: &'static str, does: &'static str, about: &str, pen: Pen<'_>) -> Row {
     let key = Span::styled(key, pen.theme.style(Role::Key));
     let gap = blanks(&key.content, 4);
-    Row { left: Line::from(vec![key, gap, Span::raw(does)]), right: Line::default(), about: vec![about.into()] }
+    Row {
+        left: Line::from(vec![key, gap, Span::raw(does)]),
+        right: Line::default(),
+        about: vec![about.into()],
+    }
 }

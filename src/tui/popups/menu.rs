@@ -124,7 +124,9 @@ impl Menu {
             What::Help => ["keys", "type to find · esc close"],
             What::Palette => ["actions", "enter do it · esc close"],
             What::Stops => ["breakpoints", "a add · d drop · enter go to the next · esc close"],
-            What::Open(_) => ["open a recording, or begin one", "enter open · tab complete a path · esc close"],
+            What::Open(_) => {
+                ["open a recording, or begin one", "enter open · tab complete a path · esc close"]
+            }
             What::Leave => ["the recording is not saved", "enter do it · esc stay"],
         }
     }

@@ -25,8 +25,6 @@ pub(in crate::tui) enum Question {
     Search,
     /// A breakpoint to add.
     Stop,
-    /// The recording to open.
-    Open,
     /// The run to compare with.
     CompareWith,
     /// The name of a checkpoint.
@@ -54,7 +52,6 @@ impl Question {
                 "add a breakpoint",
                 "finding, rejected, rejected=REASON, COUNTER=NAME, COUNTER=N, STAGE>MILLISECONDS",
             ],
-            Self::Open => ["open a recording or a script", "recordings/cut.lancet"],
             Self::CompareWith => ["compare with another run's JSON", "other-run.json"],
             Self::Checkpoint => ["set a checkpoint", "a name of its own, such as after-the-second-cut"],
             Self::Event => ["type an event as it stands in a script", "click 320 240"],
@@ -66,7 +63,7 @@ impl Question {
 
     /// Whether the answer is a file.
     pub(in crate::tui) fn is_file(self) -> bool {
-        matches!(self, Self::Open | Self::CompareWith | Self::Save | Self::SavePicture | Self::Scene)
+        matches!(self, Self::CompareWith | Self::Save | Self::SavePicture | Self::Scene)
     }
 }
 

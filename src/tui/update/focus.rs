@@ -53,7 +53,11 @@ fn select(model: &mut Model) {
     }
     let mut selected: Vec<String> = Vec::new();
     // In the order of the row, each once.
-    ids.into_iter().for_each(|id| if !selected.contains(&id) { selected.push(id) });
+    ids.into_iter().for_each(|id| {
+        if !selected.contains(&id) {
+            selected.push(id)
+        }
+    });
     model.selected = selected;
 }
 

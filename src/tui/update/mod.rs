@@ -2,22 +2,26 @@
 //!
 //! A key goes to what lies on top: a popup takes it first; then the actions that count where the focus is; then those that count everywhere.
 
+pub(in crate::tui) mod compare;
+mod copy;
 mod focus;
 #[cfg(test)]
 pub(in crate::tui) mod kit;
 pub(in crate::tui) mod popup;
 pub(in crate::tui) mod record;
+mod search;
 mod step;
 pub(in crate::tui) mod stops;
 mod told;
 
+pub(in crate::tui) use focus::reveal;
 pub(in crate::tui) use step::{beat, go};
 pub(in crate::tui) use told::told;
 
 use std::path::PathBuf;
 
 use crate::tui::action::Action;
-use crate::tui::model::{Effect, Model};
+use crate::tui::model::{Effect, Model, Pane};
 use crate::tui::popups::{Question, What};
 use crate::tui::worker::Ask;
 
@@ -58,6 +62,8 @@ pub(in crate::tui) fn act(model: &mut Model, action: Action) {
         | A::RunOn
         | A::Cancel
         | A::Check => step::act(model, action),
+        A::Compare | A::NextDivergence => compare::act(model, action),
+        A::Select if model.focus == Pane::Differences => compare::act(model, action),
         A::Up
         | A::Down
         | A::PageUp
@@ -77,7 +83,12 @@ pub(in crate::tui) fn act(model: &mut Model, action: Action) {
         | A::FocusChecks
         | A::FocusDifferences
         | A::Maximise => focus::act(model, action),
+        A::Copy => copy::copy(model),
+        A::Search => popup::ask(model, Question::Search),
+        A::NextMatch => search::step(model, true),
+        A::PreviousMatch => search::step(model, false),
         A::GoTo => popup::ask(model, Question::GoTo),
+        A::CompareWith => popup::ask(model, Question::CompareWith),
         A::Record
         | A::RecordNew
         | A::Point

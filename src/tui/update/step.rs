@@ -178,6 +178,9 @@ pub(in crate::tui) fn beat(model: &mut Model) {
 }
 
 fn cancel(model: &mut Model) {
+    if super::compare::cancel(model) {
+        return;
+    }
     let idle = model.playing.is_none() && model.progress.is_none();
     (model.playing, model.wanted) = (None, None);
     if model.progress.is_some() {

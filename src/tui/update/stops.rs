@@ -15,7 +15,8 @@ pub(in crate::tui) fn add(model: &mut Model, text: &str) -> Result<(), String> {
     let stages = model.opened.as_ref().map_or(&[][..], |opened| &opened.stages);
     if let Some(stage) = stop.stage().filter(|stage| !stages.iter().any(|(id, _)| id == stage)) {
         let ids: Vec<&str> = stages.iter().map(|(id, _)| id.as_str()).collect();
-        let there = if ids.is_empty() { "nothing is open".into() } else { format!("there are {}", ids.join(", ")) };
+        let there =
+            if ids.is_empty() { "nothing is open".into() } else { format!("there are {}", ids.join(", ")) };
         return Err(format!("there is no stage `{stage}`; {there}"));
     }
     if model.stops.contains(&stop) {
@@ -88,7 +89,9 @@ pub(super) fn halt(model: &mut Model, event: usize) {
 /// Breakpoints that the events that have run would meet, and the stages, as they are typed.
 pub(super) fn words(model: &Model) -> Vec<String> {
     let mut words: BTreeSet<String> = model.reports.iter().flat_map(|report| counted(report)).collect();
-    words.extend(model.reports.iter().filter_map(|report| Some(format!("rejected={}", report.reason.as_ref()?))));
+    words.extend(
+        model.reports.iter().filter_map(|report| Some(format!("rejected={}", report.reason.as_ref()?))),
+    );
     let stages = model.opened.iter().flat_map(|opened| &opened.stages).map(|(id, _)| format!("{id}>"));
     ["finding".into(), "rejected".into()].into_iter().chain(words).chain(stages).collect()
 }
@@ -121,10 +124,13 @@ mod tests {
 
     fn asked(model: &mut Model) -> Vec<String> {
         let effects = std::mem::take(&mut model.effects);
-        effects.iter().filter_map(|e| match e {
-            Effect::Ask(ask) => Some(format!("{ask:?}")),
-            _ => None,
-        }).collect()
+        effects
+            .iter()
+            .filter_map(|e| match e {
+                Effect::Ask(ask) => Some(format!("{ask:?}")),
+                _ => None,
+            })
+            .collect()
     }
 
     #[test]

@@ -42,6 +42,8 @@ pub(in crate::tui) fn told(model: &mut Model, told: Told) {
                 }
             }
         }
+        Told::Comparing { number, done, of } => super::compare::advanced(model, number, done, of),
+        Told::Compared { number, found } => super::compare::compared(model, number, *found),
         Told::Stopped(why) => {
             model.playing = None;
             model.say(format!("stopped: {why}"));
@@ -68,6 +70,7 @@ fn broken(model: &mut Model, why: &str) {
 }
 
 fn open(model: &mut Model, opened: Opened) {
+    let comparisons = super::compare::end(model);
     let Model { size, focus, maximised, pace, stops, popup, memory, effects, asked, answered, kept, .. } =
         std::mem::take(model);
     let stays =
@@ -80,6 +83,7 @@ fn open(model: &mut Model, opened: Opened) {
     *model = Model { opened: Some(opened), popup, ..stays };
     model.ask(Ask::Learn);
     record::opened(model, kept);
+    super::compare::begin_first(model, comparisons);
 }
 
 /// Where the worker got to by itself, or was stopped, is where the screen goes too, unless it has been sent on since.

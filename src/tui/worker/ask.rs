@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::canvas::frame::Orbit;
 use crate::replay::Input;
 use crate::report::{EventReport, Finding, StateReport, Stop};
+use crate::tui::compare::{Differences, Job};
 use crate::tui::model::Place;
 use crate::tui::record::Draft;
 use crate::tui::shot::{Picture, Shot};
@@ -47,6 +48,10 @@ pub(in crate::tui) enum Ask {
     Save(PathBuf),
     /// Tell what unsaved recordings there are.
     Drafts,
+    /// Compare a recording's file with its goldens or with another run, beside everything else.
+    Compare(Job),
+    /// Stop comparing.
+    StopComparing,
     /// Stop what is being done, if anything is.
     Cancel,
 }
@@ -70,12 +75,13 @@ pub(in crate::tui) enum Hand {
 impl Ask {
     /// Whether it comes before pictures, and before what nobody waits for.
     pub(in crate::tui) fn is_urgent(&self) -> bool {
-        !matches!(self, Self::Shoot(_) | Self::Learn | Self::Drafts)
+        let quiet = matches!(self, Self::Shoot(_) | Self::Learn | Self::Drafts);
+        !quiet && !matches!(self, Self::Compare(_) | Self::StopComparing)
     }
 
     /// Whether it puts an end to what is being done.
     pub(in crate::tui) fn interrupts(&self) -> bool {
-        !matches!(self, Self::Shoot(_) | Self::Check | Self::Learn | Self::Drafts)
+        self.is_urgent() && !matches!(self, Self::Check)
     }
 }
 
@@ -137,6 +143,22 @@ pub(in crate::tui) enum Told {
     Saved(PathBuf),
     /// The unsaved recordings, the newest first.
     Drafts(Vec<Draft>),
+    /// How far a comparison is.
+    Comparing {
+        /** Which. */
+        number: u64,
+        /** How many events have run. */
+        done: usize,
+        /** Of how many. */
+        of: usize,
+    },
+    /// What a comparison came to, or why there is none.
+    Compared {
+        /** Which. */
+        number: u64,
+        /** What was found. */
+        found: Box<Result<Differences, String>>,
+    },
     /// A run stopped at an event, for this reason.
     Stopped(String),
     /// The program broke one of its own assertions, and what was open is closed.

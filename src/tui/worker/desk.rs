@@ -8,12 +8,13 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::ask::{Ask, Opened, Standing, Told};
-use super::camera;
 use super::recording::{self, Making};
+use super::{camera, compare};
 use crate::canvas::Studio;
 use crate::render::{self, Choice};
 use crate::replay::{Case, Options, Replay};
 use crate::report::{EventReport, Stop};
+use crate::tui::compare::Job;
 use crate::tui::model::Place;
 use crate::tui::record::Drafts;
 use crate::tui::shot::{Picture, Shot};
@@ -100,7 +101,11 @@ impl Desk {
             }
             Ask::Save(path) => self.opened()?.save(&path, line),
             Ask::Drafts => self.list_drafts(line),
-            Ask::Cancel => Ok(()),
+            Ask::Compare(job) => {
+                self.compare(&job, line);
+                Ok(())
+            }
+            Ask::Cancel | Ask::StopComparing => Ok(()),
         }
     }
 
@@ -121,6 +126,11 @@ impl Desk {
         let case = recording::begin(scene, viewport)?;
         self.show(case, None, line)?.tell_recording(true, line);
         Ok(())
+    }
+
+    /// Makes a comparison, which has nothing to do with what is open here.
+    pub(in crate::tui) fn compare(&self, job: &Job, line: &mut dyn Line) {
+        compare::carry_out(job, self.choice, line);
     }
 
     fn opened(&mut self) -> Result<&mut Open, String> {

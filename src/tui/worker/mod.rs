@@ -1,10 +1,12 @@
 //! Long work, off the screen's thread: one thread with the replay and its renderer, asked and answered through channels.
+//! Comparisons have another (`compare`).
 //!
 //! What is asked later matters more: whatever interrupts puts an end to what is being done, between two events. Pictures wait until everything
 //! else is done, and of several only the newest is taken.
 
 mod ask;
 mod camera;
+mod compare;
 mod desk;
 mod recording;
 
@@ -15,6 +17,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 
+use compare::Comparer;
+
 pub(in crate::tui) use ask::{Ask, Hand, Opened, Recorded, Standing, Told};
 pub(in crate::tui) use camera::groups;
 pub(in crate::tui) use desk::{Desk, Line};
@@ -22,16 +26,18 @@ pub(in crate::tui) use desk::{Desk, Line};
 /// The screen's end.
 pub(in crate::tui) struct Worker {
     asks: Sender<Ask>,
+    comparer: Comparer,
 }
 
 impl Worker {
     /// Starts the thread, which tells what there is to know. It ends when the worker is dropped. What the program breaks one of its own
     /// assertions at is told, and the desk is cleared: whatever was on it cannot be relied on.
     pub(in crate::tui) fn start(
-        desk: impl Fn() -> Desk + Send + 'static,
-        tell: impl FnMut(Told) + Send + 'static,
+        desk: impl Fn() -> Desk + Send + Clone + 'static,
+        tell: impl FnMut(Told) + Send + Clone + 'static,
     ) -> io::Result<Self> {
         let (asks, asked) = channel();
+        let comparer = Comparer::new(desk.clone(), tell.clone());
         let work = move || {
             let mut line = Wire { asked, tell: Box::new(tell), waiting: VecDeque::new() };
             let mut now = desk();
@@ -46,12 +52,16 @@ impl Worker {
             }
         };
         thread::Builder::new().name(THREAD.into()).spawn(work)?;
-        Ok(Self { asks })
+        Ok(Self { asks, comparer })
     }
 
     /// Asks for something. A worker that is gone has told why.
     pub(in crate::tui) fn ask(&self, ask: Ask) {
-        let _ = self.asks.send(ask);
+        match ask {
+            Ask::Compare(job) => self.comparer.begin(job),
+            Ask::StopComparing => self.comparer.end(),
+            ask => drop(self.asks.send(ask)),
+        }
     }
 }
 

@@ -70,7 +70,8 @@ fn recording(suite: &Suite) -> PathBuf {
 }
 
 fn compared(suite: &Suite, studio: &Arc<dyn Studio>) -> Compared {
-    against_goldens(&recording(suite), &Options::default(), Some(studio.as_ref())).expect("it is there")
+    against_goldens(&recording(suite), &Options::default(), Some(studio.as_ref()), &unwatched)
+        .expect("it is there")
 }
 
 #[test]
@@ -80,7 +81,7 @@ fn a_picture_comes_with_its_golden_and_its_measures() {
     assert_eq!((same.report.verdict, same.report.divergences.len()), (Verdict::Verified, 0));
     let [picture] = same.pictures.as_slice() else { panic!("one checkpoint") };
     assert_eq!((picture.checkpoint.as_str(), picture.event), ("cut", 3));
-    assert_eq!((picture.golden.as_ref(), &picture.actual), (Some(&face([128, 96])), &face([128, 96])));
+    assert_eq!((picture.golden.as_deref(), &*picture.actual), (Some(&face([128, 96])), &face([128, 96])));
     assert_eq!(picture.report.verdict, ImageVerdict::Equal);
     let holed = gpu(|mut image| {
         image.texels[128 * 50 + 60] = [0, 0, 0, 255];
@@ -90,8 +91,7 @@ fn a_picture_comes_with_its_golden_and_its_measures() {
     let picture = &other.pictures[0];
     assert_eq!((other.report.verdict, picture.report.verdict), (Verdict::Failed, ImageVerdict::Beyond));
     assert_eq!(other.report.images[0], picture.report);
-    let golden = picture.golden.as_ref().expect("a golden");
-    let shown = difference(golden, &picture.actual);
+    let shown = picture.difference.as_ref().expect("there is a golden");
     let seen: Vec<usize> = (0..shown.texels.len()).filter(|at| shown.texels[*at] != [0, 0, 0, 255]).collect();
     assert_eq!(seen, [128 * 50 + 60]);
 }
@@ -117,14 +117,17 @@ fn a_missing_golden_leaves_the_picture_alone() {
     let suite = drawn(1);
     std::fs::remove_file(suite.at("golden/wound/square-0/cut.png")).expect("removed");
     let compared = compared(&suite, &reference());
-    assert_eq!((&compared.pictures[0].golden, &compared.pictures[0].actual), (&None, &face([128, 96])));
+    let picture = &compared.pictures[0];
+    assert_eq!((&picture.golden, &picture.difference), (&None, &None));
+    assert_eq!(*picture.actual, face([128, 96]));
     assert!(compared.report.goldens[0].ends_with("cut.png: missing"));
 }
 
 #[test]
 fn without_a_renderer_there_is_no_picture() {
     let suite = drawn(1);
-    let compared = against_goldens(&recording(&suite), &Options::default(), None).expect("it is there");
+    let compared =
+        against_goldens(&recording(&suite), &Options::default(), None, &unwatched).expect("it is there");
     assert_eq!((compared.report.verdict, compared.pictures.len()), (Verdict::Verified, 0));
 }
 
@@ -133,7 +136,7 @@ fn what_cannot_be_compared_is_named() {
     let suite = drawn(1);
     suite.put("golden/gates.json", b"{");
     let why = |studio: Option<&dyn Studio>| {
-        against_goldens(&recording(&suite), &Options::default(), studio).expect_err("it cannot")
+        against_goldens(&recording(&suite), &Options::default(), studio, &unwatched).expect_err("it cannot")
     };
     assert!(why(Some(reference().as_ref())).contains("gates.json: "));
     suite.put("recordings/wound/square-0.lancet", b"garbage");
@@ -143,10 +146,10 @@ fn what_cannot_be_compared_is_named() {
 #[test]
 fn a_run_is_compared_with_a_stored_one() {
     let suite = drawn(1);
-    let mut run = Side::open(&recording(&suite)).expect("it is there").run;
+    let mut run = Side::open(&recording(&suite), &unwatched).expect("it is there").run;
     let store = |run: &RunReport| {
         suite.put("stored.json", &serde_json::to_vec(run).expect("a report is JSON"));
-        against_run(&recording(&suite), &suite.at("stored.json")).expect("both are there")
+        against_run(&recording(&suite), &suite.at("stored.json"), &unwatched).expect("both are there")
     };
     assert!(store(&run).is_empty());
     run.events[2].counters.insert("links".into(), Counter::Count(99));
@@ -157,14 +160,16 @@ fn a_run_is_compared_with_a_stored_one() {
     assert_eq!(diff.divergences[1].expected, "99");
     run.schema = 9;
     suite.put("stored.json", &serde_json::to_vec(&run).expect("a report is JSON"));
-    let error = against_run(&recording(&suite), &suite.at("stored.json")).expect_err("another layout");
+    let error =
+        against_run(&recording(&suite), &suite.at("stored.json"), &unwatched).expect_err("another layout");
     assert!(error.ends_with("stored.json: a report of schema 9, not 1"), "{error}");
 }
 
 #[test]
 fn an_invariant_that_only_one_run_broke_is_a_difference() {
     let suite = drawn(1);
-    let side = || Side { recording: None, ..Side::open(&recording(&suite)).expect("it is there") };
+    let side =
+        || Side { recording: None, ..Side::open(&recording(&suite), &unwatched).expect("it is there") };
     let (whole, mut broken) = (side(), side());
     let stages = &mut broken.run.events[2].stages;
     stages[0].checks.push(Check::pass("only here"));
@@ -177,4 +182,18 @@ fn an_invariant_that_only_one_run_broke_is_a_difference() {
     assert_eq!((divergence.event, divergence.stage.as_deref()), (Some(2), Some("MC")));
     assert_eq!((divergence.expected.as_str(), divergence.found.as_str()), ("holds", "broken"));
     assert_eq!((diff.differing, diff.new.len()), (1, 0), "what one of them did not look at says nothing");
+}
+
+#[test]
+fn whoever_watches_sees_it_run_and_can_stop_it() {
+    let suite = drawn(1);
+    let seen = std::cell::RefCell::new(Vec::new());
+    let watch = |done, of| {
+        seen.borrow_mut().push((done, of));
+        done < 2
+    };
+    let error = against_goldens(&recording(&suite), &Options::default(), None, &watch).expect_err("stopped");
+    assert_eq!(*seen.borrow(), [(0, 5), (1, 5), (2, 5)]);
+    assert_eq!(error, "stopped before event 2 of 5");
+    assert_eq!(against_run(&recording(&suite), &recording(&suite), &watch).expect_err("too"), error);
 }

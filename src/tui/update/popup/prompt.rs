@@ -6,7 +6,7 @@ use crate::tui::edit::Typed;
 use crate::tui::key::Key;
 use crate::tui::model::{Model, ran};
 use crate::tui::popups::{Prompt, Question};
-use crate::tui::update::{record, search, step, stops};
+use crate::tui::update::{compare, record, search, step, stops};
 
 /// Does what was answered; an error says what is wrong with the answer.
 fn answer(model: &mut Model, question: Question, text: &str) -> Result<(), String> {
@@ -14,11 +14,11 @@ fn answer(model: &mut Model, question: Question, text: &str) -> Result<(), Strin
         Question::GoTo => step::go_to(model, text),
         Question::Search => search::find(model, text),
         Question::Stop => stops::add(model, text),
-        Question::Open => super::open_path(model, text),
         Question::Checkpoint => record::checkpoint(model, text),
         Question::Event => record::event(model, text),
         Question::Save => record::save(model, text),
         Question::Scene => record::begin(model, text),
+        Question::CompareWith => compare::with(model, text),
         other => Err(format!("{other:?} is not there yet")),
     }
 }
