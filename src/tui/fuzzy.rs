@@ -121,9 +121,9 @@ mod tests {
     fn words_that_begin_so_come_before_letters_that_are_strewn() {
         let names = ["pan-left", "previous-cut", "checkpoint", "compare", "copy", "palette"];
         assert_eq!(order("p", &names)[..3], ["pan-left", "previous-cut", "palette"]);
-        assert_eq!(order("cop", &names), ["copy", "compare", "checkpoint"]);
+        assert_eq!(order("cop", &names), ["copy", "compare"]);
         assert_eq!(order("pc", &names), ["previous-cut"]);
-        assert_eq!(order("pt", &names)[0], "checkpoint");
+        assert_eq!(order("pt", &names), ["pan-left", "palette", "previous-cut", "checkpoint"]);
     }
 
     #[test]

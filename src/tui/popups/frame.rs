@@ -68,20 +68,6 @@ pub(super) fn edit(edit: &Edit, theme: &Theme, area: Rect, buffer: &mut Buffer) 
     Line::from(spans.to_vec()).render(area, buffer);
 }
 
-/// A text in lines of at most this many cells, broken at blanks where there are any.
-pub(super) fn wrap(said: &str, width: usize) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    for word in said.split_whitespace() {
-        let line = lines.last_mut().map_or_else(String::new, std::mem::take);
-        let both = if line.is_empty() { word.to_owned() } else { format!("{line} {word}") };
-        let fits = line.is_empty() || text::width(&both) <= width;
-        let kept = if fits { [both, String::new()] } else { [line, word.to_owned()] };
-        lines.pop();
-        lines.extend(kept.into_iter().filter(|line| !line.is_empty()));
-    }
-    lines.iter().map(|line| text::fit(line, width)).collect()
-}
-
 /// Writes lines of a style from a row of an area on, as far as they fit; answers the row after them.
 pub(super) fn lines(lines: &[String], style: Style, area: Rect, from: usize, buffer: &mut Buffer) -> usize {
     for (at, line) in lines.iter().enumerate() {

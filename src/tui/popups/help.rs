@@ -27,6 +27,9 @@ const SCOPES: [(Scope, &str); 4] = [
     (Scope::Recording, "in the picture, while recording"),
 ];
 
+/// From this many cells on there is room for names, too.
+const WIDE: usize = 70;
+
 /// A row of the help.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(in crate::tui) enum Entry {
@@ -54,12 +57,11 @@ fn found(typed: &str, row: &action::Row) -> Option<[Vec<usize>; 2]> {
 }
 
 pub(super) fn rows(pen: Pen<'_>, width: usize) -> Vec<Row> {
-    let column = (width / 4).clamp(10, 22);
-    entries(pen.typed).iter().map(|entry| row(entry, pen, column)).collect()
+    entries(pen.typed).iter().map(|entry| row(entry, pen, width)).collect()
 }
 
-fn row(entry: &Entry, pen: Pen<'_>, column: usize) -> Row {
-    let theme = pen.theme;
+fn row(entry: &Entry, pen: Pen<'_>, width: usize) -> Row {
+    let (theme, column) = (pen.theme, (width / 6).clamp(10, 16));
     match entry {
         Entry::Heading(title) => {
             Row { left: Line::styled(*title, theme.style(Role::Title)), ..Row::default() }
@@ -71,9 +73,10 @@ fn row(entry: &Entry, pen: Pen<'_>, column: usize) -> Row {
             // Keys that are wider than their column push the rest away: they are what one looks for.
             spans.extend([blanks(&keys, column), blanks("", 1)]);
             spans.extend(marked(row.does, does, Role::Text, theme));
+            let name = marked(row.name, name, Role::Faint, theme);
             Row {
                 left: Line::from(spans),
-                right: Line::from(marked(row.name, name, Role::Faint, theme)),
+                right: if width < WIDE { Line::default() } else { Line::from(name) },
                 about: about(row),
             }
         }

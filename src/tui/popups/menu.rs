@@ -211,7 +211,7 @@ fn draw_row(row: &Row, area: Rect, buffer: &mut Buffer) {
 fn say(said: &[String], theme: &Theme, role: Role, area: Rect, buffer: &mut Buffer) {
     let width = usize::from(area.width);
     let lines = match said {
-        [one] => frame::wrap(one, width),
+        [one] => text::wrap(one, width, usize::from(area.height)),
         several => several.iter().map(|line| text::fit(line, width)).collect(),
     };
     frame::lines(&lines, theme.style(role), area, 0, buffer);

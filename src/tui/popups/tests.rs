@@ -171,7 +171,7 @@ fn the_palette_does_what_was_found_and_offers_it_first_the_next_time() {
     press(&mut model, "enter");
     assert_eq!(model.memory.actions()[0], Action::FocusChecks, "the first row was the last action");
     let order: Vec<&str> = actions(&Default::default(), "ne").iter().take(2).map(|e| e.row.name).collect();
-    assert_eq!(order, ["next-event", "nearer"], "names that begin so come first");
+    assert_eq!(order, ["next-event", "next-stage"], "names that begin so come first");
     assert_eq!(actions(&Default::default(), "invariants")[0].row.name, "focus-checks");
 }
 
@@ -233,7 +233,7 @@ fn a_click_chooses_and_another_one_does_it() {
 fn without_a_recording_there_is_what_can_be_opened() {
     let mut model = Model { size: [80, 24], ..Model::default() };
     update::begin(&mut model, None);
-    "sphere".chars().for_each(|c| press(&mut model, &c.to_string()));
+    "bui:sphere".chars().for_each(|c| press(&mut model, &c.to_string()));
     press(&mut model, "enter");
     let Some(Popup::Prompt(prompt)) = &model.popup else { panic!("the number of faces is asked for") };
     assert_eq!((prompt.question, prompt.edit.text()), (Question::Scene, "builtin:sphere:"));
