@@ -20,7 +20,7 @@ use super::model::{Effect, Model};
 use super::record::Drafts;
 use super::terminal::{self, Terminal};
 use super::theme::Theme;
-use super::worker::{Ask, Desk, Told, Worker};
+use super::worker::{Desk, Told, Worker};
 use super::{events, picture, update, view};
 use crate::render::Choice;
 
@@ -97,8 +97,7 @@ impl App {
         let comparisons = Comparisons::first(start.compare);
         let mut model = Model { size: [size.width, size.height], comparisons, ..Model::default() };
         model.picture.medium = medium(&protocol);
-        start.recording.into_iter().for_each(|path| model.ask(Ask::Open(path)));
-        model.ask(Ask::Drafts);
+        update::begin(&mut model, start.recording);
         // The first frame comes before anything that takes time.
         terminal.draw(|frame| view::draw(&model, &theme, &keys, frame.buffer_mut()))?;
         let (send, news) = channel();

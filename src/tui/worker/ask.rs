@@ -19,8 +19,13 @@ pub(in crate::tui) enum Ask {
     Open(PathBuf),
     /// Go to a place, and run what has not run yet on the way.
     Go(Place),
-    /// Run until one of these holds, or to the end.
-    Run(Vec<Stop>),
+    /// Run on until an event meets a breakpoint, or to the end.
+    Run {
+        /** The first event that may meet one. */
+        from: usize,
+        /** The breakpoints. */
+        stops: Vec<Stop>,
+    },
     /// Run what has not run yet, while nothing else is wanted, and come back.
     Learn,
     /// Take a picture of where the worker is. Only the newest is taken.
