@@ -219,6 +219,23 @@ pub(super) struct Viewpoint {
     pub(super) distance: Option<f64>,
 }
 
+/// How pictures reach a terminal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum ImageProtocol {
+    /// By whatever the terminal is known to have
+    Auto,
+    /// By Kitty's graphics
+    Kitty,
+    /// As sixels
+    Sixel,
+    /// As iTerm2's inline images
+    Iterm2,
+    /// In characters of two colours, which every terminal shows
+    Halfblocks,
+    /// Not at all
+    None,
+}
+
 /// What a screen lies on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Ground {
@@ -258,6 +275,9 @@ pub(super) struct Tui {
     /// The screen's columns and rows
     #[arg(long, value_name = "CxR", requires = "screen", default_value = "120x40")]
     pub(super) size: Size,
+    /// How pictures reach the terminal [default: the settings', or what the terminal is known to have]
+    #[arg(long, value_enum, value_name = "HOW")]
+    pub(super) image_protocol: Option<ImageProtocol>,
     /// Colours for a dark ground, or for a light one [default: the settings', or the terminal's]
     #[arg(long, value_enum, value_name = "GROUND")]
     pub(super) theme: Option<Ground>,

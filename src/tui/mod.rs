@@ -37,6 +37,8 @@ mod status;
 mod suite;
 mod tabs;
 pub mod terminal;
+#[cfg(test)]
+mod tests;
 pub mod text;
 pub mod theme;
 mod update;

@@ -10,13 +10,14 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::compare::Comparisons;
+use super::image::encoder::encode;
 use super::key::Key;
 use super::keys::Keys;
 use super::model::{Effect, Model};
 use super::run::Start;
 use super::theme::Theme;
 use super::worker::{Ask, Desk, Line, Told};
-use super::{events, lower, update, view};
+use super::{events, picture, update, view};
 use crate::report::EventReport;
 
 /// Rounds of asking and telling after which nothing new can come of it.
@@ -39,9 +40,10 @@ impl Stage {
         let comparisons = Comparisons::first(start.compare.clone());
         let model = Model { size, comparisons, ..Model::default() };
         let keys = Keys::new(&start.config.keys);
-        let desk = Desk::new(start.renderer, start.budget_bytes);
+        let desk = Desk::new(start.renderer, start.budget_bytes).with_drafts(start.drafts.clone());
         let mut stage = Self { model, theme, keys, desk, steady, copied: Vec::new() };
         start.recording.iter().for_each(|path| stage.model.ask(Ask::Open(path.clone())));
+        stage.model.ask(Ask::Drafts);
         stage.settle();
         stage
     }
@@ -66,6 +68,12 @@ impl Stage {
         self.model.done
     }
 
+    /// What the screen knows.
+    #[cfg(test)]
+    pub(in crate::tui) fn model(&mut self) -> &mut Model {
+        &mut self.model
+    }
+
     /// What was copied, in order.
     pub fn copied(&self) -> &[String] {
         &self.copied
@@ -76,20 +84,30 @@ impl Stage {
         let [width, height] = self.model.size;
         let mut buffer = Buffer::empty(Rect::new(0, 0, width, height));
         view::draw(&self.model, &self.theme, &self.keys, &mut buffer);
-        lower::lower(&mut buffer, self.theme.depth(), self.theme.base());
         buffer
     }
 
     /// Does what is asked, until nothing is.
     pub(in crate::tui) fn settle(&mut self) {
         for _ in 0..ROUNDS {
-            update::want_picture(&mut self.model);
+            update::picture::want(&mut self.model);
             let effects = std::mem::take(&mut self.model.effects);
-            if effects.is_empty() {
+            if effects.is_empty() && !self.show() {
                 return;
             }
             effects.into_iter().for_each(|effect| self.carry_out(effect));
         }
+        debug_assert!(false, "one thing leads to another without end");
+    }
+
+    /// Makes the picture ready that is to be seen. Whether it is another.
+    fn show(&mut self) -> bool {
+        let Some(request) = picture::request(&self.model) else { return false };
+        let other = self.model.picture.encoded.as_ref().is_none_or(|encoded| !encoded.answers(&request));
+        if other {
+            update::picture::encoded(&mut self.model, encode(&request));
+        }
+        other && self.model.picture.encoded.is_some()
     }
 
     fn carry_out(&mut self, effect: Effect) {
