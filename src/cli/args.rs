@@ -174,6 +174,9 @@ pub(super) struct Replay {
     /// Digest and check the whole state after every event
     #[arg(long)]
     pub(super) paranoid: bool,
+    /// Make the pixels too, and look at their invariants, as `verify` does, and `tui`; where a picture is asked for they are made anyway
+    #[arg(long = "pixels")]
+    pub(super) makes_pixels: bool,
     /// Write the report as JSON
     #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
     pub(super) json: Option<Target>,
