@@ -63,8 +63,7 @@ fn once(
     let name = typed.recording.display().to_string();
     let (end, within) = match &typed.until {
         None => (replay.len(), None),
-        Some(Until { event, stage: None }) => (event + 1, None),
-        Some(Until { event, stage: Some(stage) }) => (*event, Some(stage)),
+        Some(Until { events, stage }) => (*events, stage.as_ref()),
     };
     let stopped = step_to(replay.as_mut(), end, &typed.stop_at, console);
     let report = match within {
@@ -77,8 +76,9 @@ fn once(
 /// What the recording has not is refused before anything is run.
 fn require_there(typed: &Replay, replay: &dyn replay::Replay) -> Result<(), Failure> {
     let (events, stages) = (replay.len(), replay.stages());
-    if let Some(until) = typed.until.as_ref().filter(|until| until.event >= events) {
-        return Err(Failure::new(format_args!("there is no event {}; there are {events}", until.event)));
+    let last = typed.until.as_ref().and_then(Until::event);
+    if let Some(event) = last.filter(|event| *event >= events) {
+        return Err(Failure::new(format_args!("there is no event {event}; there are {events}")));
     }
     let ids: Vec<&str> = stages.into_iter().map(|(id, _)| id).collect();
     let unknown = typed.stop_at.iter().find(|stop| stop.stage().is_some_and(|stage| !ids.contains(&stage)));

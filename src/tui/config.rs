@@ -2,7 +2,7 @@
 //!
 //! ```toml
 //! mouse = true                 # false leaves the mouse to the terminal, which then selects text
-//! image-protocol = "auto"      # kitty, sixel, iterm2, halfblocks
+//! image-protocol = "auto"      # kitty, sixel, iterm2, halfblocks, none
 //!
 //! [theme]
 //! base = "auto"                # dark, light
@@ -27,6 +27,7 @@ use etcetera::BaseStrategy as _;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::image::protocol::ImageProtocol;
 use super::key::Key;
 use super::theme::{self, Base, Choice, Role};
 use crate::assets::{self, AssetError};
@@ -48,33 +49,6 @@ impl Default for Config {
     fn default() -> Self {
         Self { mouse: true, image_protocol: ImageProtocol::Auto, theme: Choice::default(), keys: Vec::new() }
     }
-}
-
-/// How pictures are shown.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum ImageProtocol {
-    /// What the terminal answers that it knows.
-    #[default]
-    Auto,
-    /// Kitty's graphics.
-    Kitty,
-    /// Sixels.
-    Sixel,
-    /// iTerm2's inline images.
-    Iterm2,
-    /// Two coloured halves in each cell, which every terminal shows.
-    Halfblocks,
-}
-
-impl ImageProtocol {
-    /// Every protocol with its name.
-    pub const NAMES: [(&'static str, Self); 5] = [
-        ("auto", Self::Auto),
-        ("kitty", Self::Kitty),
-        ("sixel", Self::Sixel),
-        ("iterm2", Self::Iterm2),
-        ("halfblocks", Self::Halfblocks),
-    ];
 }
 
 /// What is wrong with a file of settings.
@@ -180,7 +154,10 @@ fn settings(text: &str, actions: &[&str]) -> Result<Config, Fault> {
             "mouse" => {
                 config.mouse = value.get_ref().as_bool().ok_or_else(|| wants("true or false", value))?
             }
-            "image-protocol" => config.image_protocol = one_of(value, &ImageProtocol::NAMES)?,
+            "image-protocol" => {
+                let named = ImageProtocol::ALL.map(|protocol| (protocol.name(), protocol));
+                config.image_protocol = one_of(value, &named)?;
+            }
             "theme" => config.theme = choice(table_of(value)?)?,
             "keys" => config.keys = keys(table_of(value)?, actions)?,
             _ => return Err(unknown("setting", name, span, &["mouse", "image-protocol", "theme", "keys"])),

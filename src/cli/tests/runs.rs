@@ -57,6 +57,8 @@ fn a_replay_stops_where_it_is_told() {
     assert_eq!((&stages[0]["skipped"], &stages[3]["skipped"]), (&Value::Null, &"until".into()));
     assert!(complaint(&["replay", &script, "--until", "6"]).contains("there is no event 6; there are 6"));
     assert!(complaint(&["replay", &script, "--until", "2.XY"]).contains("XY"));
+    assert_eq!(events("start").as_array().map(Vec::len), Some(0));
+    assert!(complaint(&["replay", &script, "--until", "18446744073709551615"]).contains("not EVENT"));
     assert!(complaint(&["replay", &script, "--until", "x"]).contains("4 or 4.MC"));
 }
 
@@ -143,7 +145,7 @@ fn a_frame_shows_whatever_the_report_has_to_show() {
 #[test]
 fn elements_are_marked_in_a_frame_and_in_a_map() {
     let (folder, plain) = square();
-    let uv = "[[0, 1, 2], [0, 2, 3]], \"uv\": [[0, 0], [1, 0], [1, 1], [0, 1]]";
+    let uv = "[[0, 1, 2], [0, 2, 3]], \"uv\": [[0.1, 0.1], [0.9, 0.1], [0.9, 0.8], [0.1, 0.8]]";
     let script = folder.path().join("textured.json");
     std::fs::write(&script, SQUARE.replace("[[0, 1, 2], [0, 2, 3]]", uv)).unwrap();
     let script = script.to_str().unwrap();

@@ -7,8 +7,9 @@ use ratatui::layout::{Position, Rect};
 
 use super::waiting_at;
 use crate::tui::image::protocol::Medium;
-use crate::tui::image::window::{Fit, Window};
+use crate::tui::image::window::Fit;
 use crate::tui::model::{Model, Pane};
+use crate::tui::picture;
 use crate::tui::theme::{Role, Theme};
 use crate::tui::view;
 
@@ -27,10 +28,8 @@ impl Lie {
     fn of(model: &Model) -> Option<Self> {
         let area = view::areas(model).inner(Pane::Picture)?;
         let viewport = model.opened.as_ref()?.viewport;
-        let medium = Medium::BLOCKS;
         // The picture has the view's shape, but for what rounding to whole pixels does to it.
-        let size = model.picture.got.as_ref().map_or(viewport, |picture| picture.image.size);
-        let fit = Window::default().fit(size, medium.pixels(area.as_size()));
+        let (medium, fit) = (model.picture.medium, picture::fit(model)?);
         Some(Self { area, medium, fit, viewport: viewport.map(f64::from) })
     }
 

@@ -1,6 +1,6 @@
 //! What the worker tells.
 
-use super::record;
+use super::{picture, record};
 use crate::tui::action::Action;
 use crate::tui::model::{Model, Place, Progress};
 use crate::tui::worker::{Ask, Opened, Told};
@@ -20,12 +20,20 @@ pub(in crate::tui) fn told(model: &mut Model, told: Told) {
             model.standing = Some(*standing);
             record::stood(model);
         }
-        Told::Recorded(recorded) => record::recorded(model, *recorded),
+        Told::Recorded(recorded) => {
+            model.picture.forget();
+            record::recorded(model, *recorded);
+        }
         Told::Saved(path) => record::saved(model, path),
         Told::Drafts(drafts) => record::drafts(model, drafts),
         Told::Progress { what, done, of } => model.progress = Some(Progress { what, done, of }),
         Told::Idle { urgent } => idle(model, urgent),
-        Told::Picture(picture) => model.picture.got = Some(*picture),
+        Told::Picture(picture) => model.picture.take(*picture),
+        Told::NoPicture { number, why } => model.picture.miss(number, why),
+        Told::Identified(face) => picture::identified(model, face),
+        Told::PictureSaved { path, size: [width, height] } => {
+            model.say(format!("written to {}, {width} x {height}", path.display()));
+        }
         Told::Checked(state) => {
             let broken = state.checks.iter().filter(|check| !check.ok).count();
             let all = state.checks.len();
@@ -51,15 +59,29 @@ pub(in crate::tui) fn told(model: &mut Model, told: Told) {
 /// What ran stays on the screen; nothing further can be asked about it.
 fn broken(model: &mut Model, why: &str) {
     (model.standing, model.playing, model.wanted, model.recorder) = (None, None, None, None);
+    model.picture.forget();
     model.complain(format!("a bug of lancet's: panicked: {why}; open the recording again to go on"));
 }
 
 fn open(model: &mut Model, opened: Opened) {
     let comparisons = super::compare::end(model);
-    let Model { size, focus, maximised, pace, stops, memory, effects, asked, answered, kept, .. } =
-        std::mem::take(model);
-    let stays =
-        Model { size, focus, maximised, pace, stops, memory, effects, asked, answered, ..Model::default() };
+    let Model {
+        size, focus, maximised, pace, stops, memory, picture, effects, asked, answered, kept, ..
+    } = std::mem::take(model);
+    let picture = picture.anew();
+    let stays = Model {
+        size,
+        focus,
+        maximised,
+        pace,
+        stops,
+        memory,
+        picture,
+        effects,
+        asked,
+        answered,
+        ..Model::default()
+    };
     *model = Model { opened: Some(opened), ..stays };
     model.ask(Ask::Learn);
     record::opened(model, kept);

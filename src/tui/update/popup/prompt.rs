@@ -6,14 +6,19 @@ use crate::tui::edit::Typed;
 use crate::tui::key::Key;
 use crate::tui::model::{Model, ran};
 use crate::tui::popups::{Prompt, Question};
-use crate::tui::update::{compare, search, step};
+use crate::tui::update::{compare, picture, record, search, step};
 
 /// Does what was answered; an error says what is wrong with the answer.
 fn answer(model: &mut Model, question: Question, text: &str) -> Result<(), String> {
     match question {
         Question::GoTo => step::go_to(model, text),
+        Question::Scene => record::begin(model, text),
+        Question::Checkpoint => record::checkpoint(model, text),
+        Question::Event => record::event(model, text),
+        Question::Save => record::save(model, text),
         Question::CompareWith => compare::with(model, text),
         Question::Search => search::find(model, text),
+        Question::SavePicture => picture::save(model, text),
         other => Err(format!("{other:?} is not there yet")),
     }
 }
