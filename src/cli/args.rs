@@ -247,6 +247,7 @@ pub(super) enum Ground {
 
 /// Step through a recording in the terminal, and record new ones
 #[derive(Debug, clap::Args)]
+#[cfg_attr(feature = "tui", command(after_help = settings()))]
 pub(super) struct Tui {
     /// The recording
     #[arg(value_name = "REC", value_hint = ValueHint::FilePath)]
@@ -281,6 +282,13 @@ pub(super) struct Tui {
     /// Colours for a dark ground, or for a light one [default: the settings', or the terminal's]
     #[arg(long, value_enum, value_name = "GROUND")]
     pub(super) theme: Option<Ground>,
+}
+
+/// What can be set, in the help.
+#[cfg(feature = "tui")]
+fn settings() -> String {
+    let example: String = crate::tui::config::EXAMPLE.lines().map(|line| format!("  {line}\n")).collect();
+    format!("Settings:\n{example}\n`?` in the terminal shows every action with its keys and its name.")
 }
 
 /// A map to write.

@@ -117,6 +117,7 @@ pub(in crate::tui) enum Scope {
 }
 
 /// A row of the table.
+#[derive(Debug, PartialEq, Eq)]
 pub(in crate::tui) struct Row {
     /// What is done.
     pub(in crate::tui) action: Action,
