@@ -16,7 +16,7 @@ use super::keys::Keys;
 use super::model::{Effect, Model};
 use super::run::Start;
 use super::theme::Theme;
-use super::worker::{Ask, Desk, Line, Told};
+use super::worker::{Desk, Line, Told};
 use super::{events, picture, update, view};
 use crate::report::EventReport;
 
@@ -42,8 +42,7 @@ impl Stage {
         let keys = Keys::new(&start.config.keys);
         let desk = Desk::new(start.renderer, start.budget_bytes).with_drafts(start.drafts.clone());
         let mut stage = Self { model, theme, keys, desk, steady, copied: Vec::new() };
-        start.recording.iter().for_each(|path| stage.model.ask(Ask::Open(path.clone())));
-        stage.model.ask(Ask::Drafts);
+        update::begin(&mut stage.model, start.recording.clone());
         stage.settle();
         stage
     }

@@ -45,6 +45,7 @@ impl Folder {
         let start = Start {
             recording: recording.map(Path::to_owned),
             renderer: Choice::Reference,
+            compare: None,
             budget_bytes: 1 << 20,
             drafts: Drafts::at(self.at("drafts")),
             config: Config::default(),

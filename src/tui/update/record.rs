@@ -272,9 +272,17 @@ pub(super) fn opened(model: &mut Model, before: Kept) {
     }
 }
 
+/// What was open is closed. What was recorded is among the drafts.
+pub(super) fn broken(model: &mut Model) {
+    model.recorder = None;
+    model.kept.unsaved = false;
+    model.ask(Ask::Drafts);
+}
+
 /// There are recordings that were not saved, or not.
 pub(super) fn drafts(model: &mut Model, drafts: Vec<Draft>) {
     match drafts.len() {
+        _ if model.message.is_some() => {}
         0 => {}
         1 => model.say("a recording of before was not saved: ctrl-o opens it"),
         count => model.say(format!("{count} recordings of before were not saved: ctrl-o opens them")),
