@@ -270,7 +270,7 @@ fn the_copied_command_draws_what_the_screen_draws() {
             let (status, _, err) = run(&[words, vec![at.clone()]].concat());
             assert_eq!(status, Status::Verified, "{err}");
             let file = crate::assets::read_png(&std::fs::read(&at).expect("written")).expect("a picture");
-            assert!(file == got.image, "{place:?} {subject:?}");
+            assert!(file == *got.image, "{place:?} {subject:?}");
         }
     }
 }

@@ -8,6 +8,11 @@ use crate::tui::suite::{Screen, Suite, lancet};
 use crate::tui::update;
 use crate::verify::ImageVerdict;
 
+/// A comparison that came to these pictures, and nothing else.
+pub(in crate::tui) fn with_pictures(with: With, pictures: Vec<ComparedPicture>) -> Differences {
+    Differences::new(with, std::iter::empty(), Vec::new(), 0, pictures)
+}
+
 const RUN: &str = "golden/square/_run.txt";
 
 fn compared(suite: &Suite) -> Screen {
@@ -144,7 +149,7 @@ fn what_cannot_be_compared_is_told() {
     screen.act(Action::Compare);
     let (said, wrong) = screen.said();
     assert!(wrong && said.starts_with("not compared: ") && said.contains("gates.json: "), "{said}");
-    assert!(screen.0.model.differences.is_none() && !screen.0.model.is_busy());
+    assert!(screen.0.model.differences.is_none() && !screen.0.model.comparing.is_some());
     let mut nothing = Model::default();
     update::act(&mut nothing, Action::Compare);
     assert_eq!(nothing.message.map(|message| message.text), Some("nothing is open".into()));
@@ -172,9 +177,9 @@ fn a_comparison_that_was_stopped_or_overtaken_is_not_shown() {
     let suite = Suite::new();
     let mut screen = suite.screen();
     update::act(screen.model(), Action::Compare);
-    assert!(screen.0.model.is_busy());
+    assert!(screen.0.model.comparing.is_some());
     update::act(screen.model(), Action::Cancel);
-    assert_eq!((screen.said().0, screen.0.model.is_busy()), ("not compared: stopped", false));
+    assert_eq!((screen.said().0, screen.0.model.comparing.is_some()), ("not compared: stopped", false));
     screen.0.settle();
     assert!(screen.0.model.differences.is_none(), "it came too late");
 }
