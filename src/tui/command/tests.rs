@@ -9,7 +9,7 @@ use crate::cli::{Status, flags, parses};
 use crate::report::{EventReport, RunReport};
 use crate::tui::action::ACTIONS;
 use crate::tui::shot::Drawn;
-use crate::tui::suite::{Screen, Suite, lancet};
+use crate::tui::tests::suite::{Screen, Suite, lancet};
 use crate::tui::{key::Key, update};
 use crate::verify::{Diff, VerifyReport};
 

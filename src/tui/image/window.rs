@@ -287,7 +287,7 @@ mod tests {
 
     #[test]
     fn a_reduced_pixel_is_the_mean_of_its_box() {
-        let bands = |x: u32| if x % 3 == 0 { [90, 0, 255, 9] } else { [0, 30, 255, 0] };
+        let bands = |x: u32| if x.is_multiple_of(3) { [90, 0, 255, 9] } else { [0, 30, 255, 0] };
         let image = Image { size: [12, 6], texels: (0..72).map(|i| bands(i % 12)).collect() };
         assert_eq!(crop(&image, &Window::default(), [4, 2]).texels, [[30, 20, 255, 255]; 8]);
         // 2.5 of the picture's for one: half of a pixel counts half.
