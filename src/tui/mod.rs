@@ -34,6 +34,8 @@ mod stage;
 mod status;
 mod tabs;
 pub mod terminal;
+#[cfg(test)]
+mod tests;
 pub mod text;
 pub mod theme;
 mod update;

@@ -119,10 +119,7 @@ impl App {
         self.carry_out()?;
         if self.changed {
             let Self { model, theme, keys, terminal, .. } = self;
-            terminal.draw(|frame| {
-                view::draw(model, theme, keys, frame.buffer_mut());
-                theme.lower(frame.buffer_mut());
-            })?;
+            terminal.draw(|frame| view::draw(model, theme, keys, frame.buffer_mut()))?;
             self.changed = false;
         }
         self.listen()?;

@@ -16,7 +16,7 @@ use super::model::{Effect, Model};
 use super::run::Start;
 use super::theme::Theme;
 use super::worker::{Ask, Desk, Line, Told};
-use super::{events, lower, picture, update, view};
+use super::{events, picture, update, view};
 use crate::report::EventReport;
 
 /// Rounds of asking and telling after which nothing new can come of it.
@@ -65,6 +65,12 @@ impl Stage {
         self.model.done
     }
 
+    /// What the screen knows.
+    #[cfg(test)]
+    pub(in crate::tui) fn model(&mut self) -> &mut Model {
+        &mut self.model
+    }
+
     /// What was copied, in order.
     pub fn copied(&self) -> &[String] {
         &self.copied
@@ -75,7 +81,6 @@ impl Stage {
         let [width, height] = self.model.size;
         let mut buffer = Buffer::empty(Rect::new(0, 0, width, height));
         view::draw(&self.model, &self.theme, &self.keys, &mut buffer);
-        lower::lower(&mut buffer, self.theme.depth(), self.theme.base());
         buffer
     }
 
@@ -89,6 +94,7 @@ impl Stage {
             }
             effects.into_iter().for_each(|effect| self.carry_out(effect));
         }
+        debug_assert!(false, "one thing leads to another without end");
     }
 
     /// Makes the picture ready that is to be seen. Whether it is another.

@@ -159,7 +159,7 @@ fn most(model: &Model, middle: Rect) -> Vec<(Pane, Rect)> {
     ]
 }
 
-/// Draws the screen.
+/// Draws the screen, in the colours that there are.
 pub(in crate::tui) fn draw(model: &Model, theme: &Theme, keys: &Keys, buffer: &mut Buffer) {
     let areas = areas(model);
     status::title(model, theme, areas.title, buffer);
@@ -174,4 +174,5 @@ pub(in crate::tui) fn draw(model: &Model, theme: &Theme, keys: &Keys, buffer: &m
     }
     status::status(model, theme, keys, areas.status, buffer);
     popups::draw(model, theme, keys, buffer);
+    theme.lower(buffer);
 }

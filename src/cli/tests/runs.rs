@@ -143,7 +143,7 @@ fn a_frame_shows_whatever_the_report_has_to_show() {
 #[test]
 fn elements_are_marked_in_a_frame_and_in_a_map() {
     let (folder, plain) = square();
-    let uv = "[[0, 1, 2], [0, 2, 3]], \"uv\": [[0, 0], [1, 0], [1, 1], [0, 1]]";
+    let uv = "[[0, 1, 2], [0, 2, 3]], \"uv\": [[0.1, 0.1], [0.9, 0.1], [0.9, 0.8], [0.1, 0.8]]";
     let script = folder.path().join("textured.json");
     std::fs::write(&script, SQUARE.replace("[[0, 1, 2], [0, 2, 3]]", uv)).unwrap();
     let script = script.to_str().unwrap();

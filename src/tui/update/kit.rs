@@ -39,5 +39,5 @@ pub(in crate::tui) fn reports() -> Vec<EventReport> {
 
 /// The worker at a place.
 pub(in crate::tui) fn standing(place: Place) -> Standing {
-    Standing { place, within: None, sizes: Vec::new(), orbit: None, kept_bytes: 0 }
+    Standing { place, mode: "", within: None, sizes: Vec::new(), orbit: None, kept_bytes: 0 }
 }

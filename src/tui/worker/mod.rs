@@ -88,11 +88,15 @@ impl Wire {
             self.waiting.push_back(self.asked.recv().ok()?);
             self.collect();
         }
-        let first = self.waiting.iter().position(|ask| ask.is_urgent());
-        first.and_then(|first| self.waiting.remove(first)).or_else(|| self.newest_picture()).or_else(|| {
+        let urgent = self.first(Ask::is_urgent).or_else(|| self.newest_picture());
+        urgent.or_else(|| self.first(|ask| !matches!(ask, Ask::Learn))).or_else(|| {
             self.waiting.clear();
             Some(Ask::Learn)
         })
+    }
+
+    fn first(&mut self, is: impl Fn(&Ask) -> bool) -> Option<Ask> {
+        self.waiting.iter().position(is).and_then(|at| self.waiting.remove(at))
     }
 
     fn newest_picture(&mut self) -> Option<Ask> {

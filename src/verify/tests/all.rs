@@ -20,11 +20,17 @@ fn every_difference_is_named_in_the_order_of_the_run() {
         text = text.replace(from, to);
     }
     suite.put("golden/a/_run.txt", text.as_bytes());
+    let state = suite.get("golden/a/after.txt").replace("state numbers = 6", "state numbers = 9");
+    suite.put("golden/a/after.txt", state.as_bytes());
     let report = suite.verify();
     let report = only(&report);
     let named: Vec<&str> = report.divergences.iter().map(|d| d.what.as_str()).collect();
-    assert_eq!(named, ["scene numbers", "event 2 counter width", "event 4", "end numbers"]);
-    assert_eq!(report.differing, 4);
+    let at_the_checkpoint = "checkpoint after state numbers";
+    assert_eq!(
+        named,
+        ["scene numbers", "event 2 counter width", at_the_checkpoint, "event 4", "end numbers"]
+    );
+    assert_eq!(report.differing, 5);
     assert_eq!(report.divergence.as_ref(), report.divergences.first());
     let second = &report.divergences[1];
     assert_eq!((second.event, second.expected.as_str(), second.found.as_str()), (Some(2), "4", "3"));

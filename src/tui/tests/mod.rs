@@ -1,0 +1,21 @@
+//! Whole screens: how they look, and that no key breaks one.
+
+mod keys;
+mod screens;
+
+use std::path::Path;
+
+use super::theme::Theme;
+use super::{Stage, Start};
+use crate::render::Choice;
+
+/// The screen with a recording open, in front of the CPU reference, with times that depend on no machine.
+fn opened(recording: &Path, theme: Theme, size: [u16; 2]) -> Stage {
+    let start = Start {
+        recording: Some(recording.to_owned()),
+        renderer: Choice::Reference,
+        budget_bytes: 64 << 20,
+        ..Start::default()
+    };
+    Stage::open(&start, theme, size, true)
+}
