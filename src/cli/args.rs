@@ -161,7 +161,7 @@ pub(super) struct Replay {
     /// The recording
     #[arg(value_name = "REC", value_hint = ValueHint::FilePath)]
     pub(super) recording: PathBuf,
-    /// Stop after this event, or after a stage of it, such as 4.MC
+    /// Stop after this event, or after a stage of it, such as 4.MC; or before the first one (`start`)
     #[arg(long, value_name = "EVENT[.STAGE]")]
     pub(super) until: Option<Until>,
     /// Stop after the first event with a broken invariant (`finding`), that was rejected (`rejected`, `rejected=miss`), that counted something
@@ -174,6 +174,9 @@ pub(super) struct Replay {
     /// Digest and check the whole state after every event
     #[arg(long)]
     pub(super) paranoid: bool,
+    /// Make the pixels too, and look at their invariants, as `verify` does, and `tui`; where a picture is asked for they are made anyway
+    #[arg(long = "pixels")]
+    pub(super) makes_pixels: bool,
     /// Write the report as JSON
     #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
     pub(super) json: Option<Target>,
@@ -244,6 +247,7 @@ pub(super) enum Ground {
 
 /// Step through a recording in the terminal, and record new ones
 #[derive(Debug, clap::Args)]
+#[cfg_attr(feature = "tui", command(after_help = settings()))]
 pub(super) struct Tui {
     /// The recording
     #[arg(value_name = "REC", value_hint = ValueHint::FilePath)]
@@ -278,6 +282,13 @@ pub(super) struct Tui {
     /// Colours for a dark ground, or for a light one [default: the settings', or the terminal's]
     #[arg(long, value_enum, value_name = "GROUND")]
     pub(super) theme: Option<Ground>,
+}
+
+/// What can be set, in the help.
+#[cfg(feature = "tui")]
+fn settings() -> String {
+    let example: String = crate::tui::config::EXAMPLE.lines().map(|line| format!("  {line}\n")).collect();
+    format!("Settings:\n{example}\n`?` in the terminal shows every action with its keys and its name.")
 }
 
 /// A map to write.

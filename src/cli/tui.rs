@@ -14,7 +14,7 @@ pub(super) fn run(typed: &Tui, console: &mut Console<'_>) -> Done {
     use crate::tui::theme::Base;
     use crate::tui::{self, Drafts, Start};
 
-    let mut config = Config::load(typed.config.as_deref(), &tui::action_names()).map_err(Failure::new)?;
+    let mut config = Config::load(typed.config.as_deref(), &tui::actions()).map_err(Failure::new)?;
     let base = typed.theme.map(|ground| match ground {
         Ground::Dark => Base::Dark,
         Ground::Light => Base::Light,

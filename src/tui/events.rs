@@ -113,3 +113,6 @@ fn pressed(model: &mut Model, keys: &Keys, key: Key) -> bool {
     action.into_iter().for_each(|action| update::act(model, action));
     action.is_some()
 }
+
+#[cfg(test)]
+mod tests;

@@ -12,11 +12,13 @@
 
 mod action;
 pub mod colour;
+mod command;
 mod compare;
 pub mod config;
 mod edit;
 pub mod environment;
 mod events;
+mod fuzzy;
 pub mod image;
 pub mod key;
 mod keys;
@@ -32,6 +34,8 @@ pub mod screen;
 mod shot;
 mod stage;
 mod status;
+#[cfg(test)]
+mod suite;
 mod tabs;
 pub mod terminal;
 #[cfg(test)]
@@ -47,7 +51,7 @@ pub use record::Drafts;
 pub use run::{Start, run};
 pub use stage::Stage;
 
-/// The names of all actions, as the configuration gives them keys.
-pub fn action_names() -> Vec<&'static str> {
-    action::ACTIONS.iter().map(|row| row.name).collect()
+/// All actions, as the configuration gives them keys.
+pub fn actions() -> Vec<config::Known> {
+    action::ACTIONS.iter().map(|row| config::Known { name: row.name, scope: row.scope as usize }).collect()
 }

@@ -20,7 +20,7 @@ use super::model::{Effect, Model};
 use super::record::Drafts;
 use super::terminal::{self, Terminal};
 use super::theme::Theme;
-use super::worker::{Ask, Desk, Told, Worker};
+use super::worker::{Desk, Told, Worker};
 use super::{events, picture, update, view};
 use crate::render::Choice;
 
@@ -48,16 +48,21 @@ enum News {
     Encoded(Box<Result<Encoded, String>>),
 }
 
+/// How long what was recorded may take to be kept when all is over.
+const GRACE: Duration = Duration::from_secs(10);
+
 /// How long nothing may happen before signals are looked for.
 const PATIENCE: Duration = Duration::from_millis(200);
 
 /// Runs it until it is left. The terminal has to be there.
 pub fn run(start: Start) -> io::Result<()> {
     let mut app = App::new(start)?;
-    while !app.model.done && !app.terminal.ended() {
-        app.turn()?;
+    let mut turned = Ok(());
+    while turned.is_ok() && !app.model.done && !app.terminal.ended() {
+        turned = app.turn();
     }
-    Ok(())
+    app.end();
+    turned
 }
 
 /// How pictures reach the terminal. Its cells may have another size than before.
@@ -92,8 +97,7 @@ impl App {
         let comparisons = Comparisons::first(start.compare);
         let mut model = Model { size: [size.width, size.height], comparisons, ..Model::default() };
         model.picture.medium = medium(&protocol);
-        start.recording.into_iter().for_each(|path| model.ask(Ask::Open(path)));
-        model.ask(Ask::Drafts);
+        update::begin(&mut model, start.recording);
         // The first frame comes before anything that takes time.
         terminal.draw(|frame| view::draw(&model, &theme, &keys, frame.buffer_mut()))?;
         let (send, news) = channel();
@@ -127,6 +131,19 @@ impl App {
         Ok(())
     }
 
+    /// Ends. Who has recorded waits until that is kept.
+    fn end(mut self) {
+        let records = self.model.recorder.is_some() || self.model.kept.unsaved;
+        for effect in std::mem::take(&mut self.model.effects) {
+            if let Effect::Ask(ask) = effect {
+                self.worker.ask(ask);
+            }
+        }
+        if records {
+            self.worker.finish(GRACE);
+        }
+    }
+
     /// Does what the model wants done outside.
     fn carry_out(&mut self) -> io::Result<()> {
         update::picture::want(&mut self.model);
@@ -148,7 +165,9 @@ impl App {
             }
             self.changed = true;
         }
-        picture::request(&self.model).into_iter().for_each(|request| drop(self.encoder.ask(request)));
+        if let Some(request) = picture::request(&self.model) {
+            self.encoder.ask(request);
+        }
         Ok(())
     }
 

@@ -9,13 +9,14 @@ use crossterm::event::{Event, KeyEvent};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
+use super::compare::Comparisons;
 use super::image::encoder::encode;
 use super::key::Key;
 use super::keys::Keys;
 use super::model::{Effect, Model};
 use super::run::Start;
 use super::theme::Theme;
-use super::worker::{Ask, Desk, Line, Told};
+use super::worker::{Desk, Line, Told};
 use super::{events, picture, update, view};
 use crate::report::EventReport;
 
@@ -24,7 +25,7 @@ const ROUNDS: usize = 10_000;
 
 /// See the module.
 pub struct Stage {
-    model: Model,
+    pub(in crate::tui) model: Model,
     theme: Theme,
     keys: Keys,
     desk: Desk,
@@ -36,11 +37,12 @@ pub struct Stage {
 impl Stage {
     /// The screen as it is once everything is done that it begins with. With steady times no figure depends on the machine.
     pub fn open(start: &Start, theme: Theme, size: [u16; 2], steady: bool) -> Self {
-        let model = Model { size, ..Model::default() };
+        let comparisons = Comparisons::first(start.compare.clone());
+        let model = Model { size, comparisons, ..Model::default() };
         let keys = Keys::new(&start.config.keys);
-        let desk = Desk::new(start.renderer, start.budget_bytes);
+        let desk = Desk::new(start.renderer, start.budget_bytes).with_drafts(start.drafts.clone());
         let mut stage = Self { model, theme, keys, desk, steady, copied: Vec::new() };
-        start.recording.iter().for_each(|path| stage.model.ask(Ask::Open(path.clone())));
+        update::begin(&mut stage.model, start.recording.clone());
         stage.settle();
         stage
     }
@@ -85,7 +87,7 @@ impl Stage {
     }
 
     /// Does what is asked, until nothing is.
-    fn settle(&mut self) {
+    pub(in crate::tui) fn settle(&mut self) {
         for _ in 0..ROUNDS {
             update::picture::want(&mut self.model);
             let effects = std::mem::take(&mut self.model.effects);

@@ -176,3 +176,6 @@ pub(in crate::tui) fn draw(model: &Model, theme: &Theme, keys: &Keys, buffer: &m
     popups::draw(model, theme, keys, buffer);
     theme.lower(buffer);
 }
+
+#[cfg(test)]
+mod tests;

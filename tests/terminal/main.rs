@@ -2,10 +2,12 @@
 #![cfg(all(unix, feature = "tui"))]
 
 mod pty;
+mod record;
 
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
+use std::time::Instant;
 
 use pty::Program;
 
@@ -63,6 +65,31 @@ fn it_starts_steps_and_follows_the_terminals_size() {
     program.press("q");
     let (status, _) = program.left();
     assert!(status.success(), "{status}");
+}
+
+#[test]
+fn two_hundred_cuts_are_walked_key_by_key() {
+    let folder = folder();
+    let cuts = concat!(env!("CARGO_MANIFEST_DIR"), "/recordings/wound/two-hundred-cuts.lancet");
+    fs::copy(cuts, folder.path().join("cuts.lancet")).expect("copied");
+    let mut program = Program::start(folder.path(), &["cuts.lancet"], [120, 40]);
+    let title = program.expect(" 0/").lines().next().expect("a title").to_owned();
+    let count = title.split("0/").nth(1).and_then(|rest| rest.split(' ').next()).expect("a number");
+    let count: usize = count.parse().expect("a number");
+    program.press("\x1b[F");
+    program.expect(&format!("{count}/{count}"));
+    let mut waits: Vec<u128> = (1..=40)
+        .map(|back| {
+            let begin = Instant::now();
+            program.press("h");
+            program.expect(&format!("{}/{count}", count - back));
+            begin.elapsed().as_millis()
+        })
+        .collect();
+    waits.sort_unstable();
+    eprintln!("{count} events: a key is answered after {} ms, {} ms at most", waits[20], waits[39]);
+    program.press("q");
+    program.left();
 }
 
 #[test]

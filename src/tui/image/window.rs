@@ -211,9 +211,9 @@ mod tests {
     fn the_way_back_is_the_way_there() {
         each_fit(|fit| {
             let mut there = 0;
-            for (x, y) in
-                (0..20).flat_map(|x| (0..20).map(move |y| (f64::from(x) / 20.0, f64::from(y) / 20.0)))
-            {
+            for (x, y) in (0..20).flat_map(|x| {
+                (0..20).map(move |y| ((f64::from(x) + 0.5) / 20.0, (f64::from(y) + 0.5) / 20.0))
+            }) {
                 let point = [x * f64::from(fit.pane[0]), y * f64::from(fit.pane[1])];
                 let Some(at) = fit.to_picture(point) else { continue };
                 there += 1;

@@ -167,6 +167,8 @@ pub(in crate::tui) struct Model {
     pub(in crate::tui) answered: u64,
     /// What is to be done outside.
     pub(in crate::tui) effects: Vec<Effect>,
+    /// Whether it is over once the recording is saved.
+    pub(in crate::tui) leaving: bool,
     /// Whether it is over.
     pub(in crate::tui) done: bool,
 }

@@ -39,5 +39,10 @@ pub(in crate::tui) fn reports() -> Vec<EventReport> {
 
 /// The worker at a place.
 pub(in crate::tui) fn standing(place: Place) -> Standing {
-    Standing { place, mode: "", within: None, sizes: Vec::new(), orbit: None, kept_bytes: 0 }
+    Standing { place, within: None, sizes: Vec::new(), orbit: None, mode: "one", kept_bytes: 0 }
+}
+
+/// Lets the last event run, too.
+pub(in crate::tui) fn report_all(model: &mut Model) {
+    model.reports.push(Arc::new(EventReport::new(3, "cut")));
 }

@@ -12,15 +12,28 @@ pub(in crate::tui) mod popup;
 pub(in crate::tui) mod record;
 mod search;
 mod step;
+pub(in crate::tui) mod stops;
 mod told;
 
 pub(in crate::tui) use focus::reveal;
 pub(in crate::tui) use step::{beat, go};
 pub(in crate::tui) use told::told;
 
+use std::path::PathBuf;
+
 use crate::tui::action::Action;
 use crate::tui::model::{Effect, Model, Pane};
-use crate::tui::popups::Question;
+use crate::tui::popups::{Question, What};
+use crate::tui::worker::Ask;
+
+/// Begins: with a recording, or with what could be opened.
+pub(in crate::tui) fn begin(model: &mut Model, recording: Option<PathBuf>) {
+    match recording {
+        Some(path) => model.ask(Ask::Open(path)),
+        None => popup::open(model),
+    }
+    model.ask(Ask::Drafts);
+}
 
 /// Does something.
 pub(in crate::tui) fn act(model: &mut Model, action: Action) {
@@ -65,6 +78,7 @@ pub(in crate::tui) fn act(model: &mut Model, action: Action) {
         | A::FocusDifferences
         | A::Maximise => focus::act(model, action),
         A::Copy => copy::copy(model),
+        A::CopyCommand => copy::command(model),
         A::Search => popup::ask(model, Question::Search),
         A::NextMatch => search::step(model, true),
         A::PreviousMatch => search::step(model, false),
@@ -111,7 +125,11 @@ pub(in crate::tui) fn act(model: &mut Model, action: Action) {
         | A::SaveFrame => picture::act(model, action),
         A::Suspend => model.effects.push(Effect::Suspend),
         A::Redraw => model.effects.push(Effect::Redraw),
-        A::Quit | A::Leave => model.done = true,
-        other => model.complain(format!("{} is not there yet", other.row().name)),
+        A::Stops => popup::choose(model, What::Stops),
+        A::Open => popup::open(model),
+        A::Help => popup::choose(model, What::Help),
+        A::Palette => popup::choose(model, What::Palette),
+        A::Quit => popup::quit(model),
+        A::Leave => model.done = true,
     }
 }

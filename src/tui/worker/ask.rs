@@ -19,8 +19,13 @@ pub(in crate::tui) enum Ask {
     Open(PathBuf),
     /// Go to a place, and run what has not run yet on the way.
     Go(Place),
-    /// Run until one of these holds, or to the end.
-    Run(Vec<Stop>),
+    /// Run on until an event meets a breakpoint, or to the end.
+    Run {
+        /** The first event that may meet one. */
+        from: usize,
+        /** The breakpoints. */
+        stops: Vec<Stop>,
+    },
     /// Run what has not run yet, while nothing else is wanted, and come back.
     Learn,
     /// Take a picture of where the worker is. Only the newest is taken.
@@ -96,7 +101,7 @@ pub(in crate::tui) enum Hand {
 impl Ask {
     /// Whether it comes before pictures, and before what nobody waits for.
     pub(in crate::tui) fn is_urgent(&self) -> bool {
-        let quiet = matches!(self, Self::Shoot(_) | Self::Learn | Self::Drafts);
+        let quiet = matches!(self, Self::Shoot(_) | Self::Learn);
         !quiet && !matches!(self, Self::Compare(_) | Self::StopComparing)
     }
 
@@ -109,7 +114,8 @@ impl Ask {
 
     /// Whether it puts an end to what is being done.
     pub(in crate::tui) fn interrupts(&self) -> bool {
-        self.is_urgent() && !matches!(self, Self::Check | Self::Identify { .. } | Self::SavePicture { .. })
+        let looks = matches!(self, Self::Check | Self::Identify { .. } | Self::SavePicture { .. });
+        self.is_urgent() && !looks && !matches!(self, Self::Drafts)
     }
 }
 

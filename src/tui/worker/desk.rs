@@ -94,7 +94,7 @@ impl Desk {
         match ask {
             Ask::Open(path) => self.open_file(&path, line),
             Ask::Go(place) => self.opened()?.go(place, line),
-            Ask::Run(stops) => self.opened()?.run(&stops, line),
+            Ask::Run { from, stops } => self.opened()?.run(from, &stops, line),
             Ask::Learn => self.opened()?.learn(line),
             Ask::Shoot(shot) => {
                 self.shoot(*shot, line);
@@ -321,9 +321,12 @@ impl Open {
         Ok(())
     }
 
-    fn run(&mut self, stops: &[Stop], line: &mut dyn Line) -> Result<(), String> {
-        self.within = None;
+    fn run(&mut self, from: usize, stops: &[Stop], line: &mut dyn Line) -> Result<(), String> {
         let end = self.replay.len();
+        if !self.seek(from.min(end), line) {
+            self.stand(line);
+            return Ok(());
+        }
         loop {
             if self.replay.step().is_none() {
                 line.tell(Told::Stopped("the end".into()));
