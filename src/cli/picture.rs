@@ -17,8 +17,8 @@ pub(super) fn of(
     report: &RunReport,
     replay: &mut dyn replay::Replay,
 ) -> Result<Image, Failure> {
-    let last_cut = report.events.iter().rev().find(|event| event.cut);
-    let mut drawings = drawings(&typed.overlay, last_cut.map_or(&[], |event| &event.overlays))?;
+    let last = report.events.iter().rev().find(|event| event.has_overlays());
+    let mut drawings = drawings(&typed.overlay, last.map_or(&[], |event| &event.overlays))?;
     if !typed.select.is_empty() {
         require_elements(&typed.select, replay)?;
         drawings.push(Drawing::Marked(&typed.select));

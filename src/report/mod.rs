@@ -317,6 +317,11 @@ impl EventReport {
         report
     }
 
+    /// Whether there is anything of it to draw.
+    pub fn has_overlays(&self) -> bool {
+        !self.overlays.iter().all(Overlay::is_empty)
+    }
+
     /// Keeps why it was rejected.
     pub fn reject(&mut self, rejection: Rejection) {
         self.outcome = Outcome::Rejected;

@@ -21,7 +21,8 @@ use crate::report::Overlay;
 use crate::tui::action::{Action, Row};
 use crate::tui::compare::With;
 use crate::tui::model::{Model, Pane, Place};
-use crate::tui::shot::{Subject, Tint};
+use crate::tui::picture;
+use crate::tui::shot::{Subject, Tint, groups};
 
 /// The command of an action, with what is on the screen filled in; none of what only moves about on it.
 pub(in crate::tui) fn of(model: &Model, row: &Row) -> Option<String> {
@@ -119,9 +120,9 @@ fn flag(name: &str, values: &[String]) -> Vec<String> {
     if values.is_empty() { Vec::new() } else { vec![name.into(), values.join(",")] }
 }
 
-/// What can be drawn over the picture of the event that is shown.
+/// What can be drawn over the picture that is shown.
 fn overlays(model: &Model) -> &[Overlay] {
-    model.shown().map_or(&[], |report| &report.overlays)
+    picture::source(model).map_or(&[], |report| &report.overlays)
 }
 
 fn lines(model: &Model) -> Vec<String> {
@@ -133,7 +134,8 @@ fn tint(model: &Model) -> Vec<String> {
     match &model.picture.drawn.tint {
         Tint::None => Vec::new(),
         Tint::Charts => vec!["charts".into()],
-        Tint::Group(group) => vec![group.clone()],
+        Tint::Group(group) if groups(overlays(model)).contains(&group.as_str()) => vec![group.clone()],
+        Tint::Group(_) => Vec::new(),
     }
 }
 
@@ -164,7 +166,8 @@ fn angle(model: &Model, name: &str) -> Option<String> {
 fn shown(model: &Model) -> Vec<String> {
     let drawn = &model.picture.drawn;
     let wire = drawn.wire.then(|| "wire".to_owned());
-    let lines = if drawn.lines { lines(model) } else { Vec::new() };
+    let in_space = drawn.lines && model.picture.subject == Subject::Frame;
+    let lines = if in_space { lines(model) } else { Vec::new() };
     let overlays: Vec<String> = tint(model).into_iter().chain(wire).chain(lines).collect();
     let from = match (model.picture.subject, model.picture.orbit) {
         (Subject::Frame, Some(orbit)) => {

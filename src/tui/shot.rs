@@ -138,7 +138,7 @@ pub(in crate::tui) fn source<'a>(
     report: impl Fn(usize) -> Option<&'a EventReport>,
 ) -> Option<&'a EventReport> {
     let before = (0..events).rev().filter_map(report);
-    held.into_iter().chain(before).find(|report| !report.overlays.iter().all(Overlay::is_empty))
+    held.into_iter().chain(before).find(|report| report.has_overlays())
 }
 
 /// The groups of sets of faces that a report has, those without any face left out.

@@ -8,7 +8,8 @@
 //! | `ink` | how much of a colour each pixel takes |
 //! | `pick` | the way back: the face at a pixel, [`face_at`], or at texture coordinates, [`face_at_uv`] |
 //!
-//! Each drawing is collected as ink and laid over the picture at once, so that strokes that cross do not add up.
+//! Each drawing is collected as ink and laid over the picture at once, so that strokes that cross do not add up; and a face that is in several
+//! sets is coloured as in the last of them alone.
 
 mod ink;
 mod marked;
@@ -17,6 +18,8 @@ mod scene;
 #[cfg(test)]
 mod tests;
 mod texture;
+
+use rustc_hash::FxHashMap;
 
 use ink::Ink;
 use marked::Marked;
@@ -27,7 +30,7 @@ pub use texture::draw_uv;
 
 use crate::canvas::frame::View;
 use crate::canvas::image::Image;
-use crate::mesh::Mesh;
+use crate::mesh::{FaceId, Mesh};
 use crate::report::Overlay;
 
 /// Something to draw.
@@ -71,12 +74,35 @@ mod share {
     pub(super) const HIDDEN_LINE: u8 = 120;
 }
 
-/// The colour of a set of faces: of those that are drawn over one picture, the first, the second, and so on.
-pub fn face_colour(order: usize) -> [u8; 3] {
+/// The sets of faces among some drawings, with their colours; those left out whose every face is also in a later set.
+pub fn legend<'a>(drawings: &[Drawing<'a>]) -> Vec<(&'a str, [u8; 3])> {
+    let coloured = coloured(drawings);
+    let sets = drawings.iter().filter_map(|drawing| match drawing {
+        Drawing::Shown(Overlay::Faces { name, .. }) => Some(name.as_str()),
+        _ => None,
+    });
+    let seen = |order: &usize| coloured.values().any(|other| other == order);
+    sets.enumerate()
+        .filter(|(order, _)| seen(order))
+        .map(|(order, name)| (name, face_colour(order)))
+        .collect()
+}
+
+/// The colour of a set of faces by its order among those that are drawn over one picture.
+fn face_colour(order: usize) -> [u8; 3] {
     FACES[order % FACES.len()]
 }
 
-/// Draws over a frame of a view of a mesh, in order.
+/// The order of the set by which each face is coloured: of several the last, so that colours do not mix.
+fn coloured(drawings: &[Drawing<'_>]) -> FxHashMap<FaceId, usize> {
+    let sets = drawings.iter().filter_map(|drawing| match drawing {
+        Drawing::Shown(Overlay::Faces { faces, .. }) => Some(faces),
+        _ => None,
+    });
+    sets.enumerate().flat_map(|(order, faces)| faces.iter().map(move |face| (FaceId(*face), order))).collect()
+}
+
+/// Draws over a frame of a view of a mesh: sets of faces first, and the rest in order.
 pub fn draw(image: &mut Image, view: &View, mesh: &Mesh, drawings: &[Drawing<'_>]) {
     draw_supersampled(image, view, mesh, drawings, 1);
 }
@@ -87,15 +113,17 @@ pub fn draw_supersampled(image: &mut Image, view: &View, mesh: &Mesh, drawings: 
         return;
     }
     let scene = Scene::new(view, mesh, factor);
-    let mut colours = FACES.iter().cycle();
+    let coloured = coloured(drawings);
+    scene.colour(image, |face| coloured.get(&face).map(|order| face_colour(*order)));
     for drawing in drawings {
         match drawing {
             Drawing::Wire => scene.wire().lay(image, WIRE),
-            Drawing::Charts => scene.charts(image),
-            Drawing::Marked(ids) => scene.marked(&Marked::of(mesh, ids)).lay(image, MARK),
-            Drawing::Shown(Overlay::Faces { faces, .. }) => {
-                scene.faces(faces).lay(image, *colours.next().unwrap_or(&LINE));
+            Drawing::Charts => {
+                let colours = chart_colours(mesh);
+                scene.colour(image, |face| Some(colours[face.at()]));
             }
+            Drawing::Marked(ids) => scene.marked(&Marked::of(mesh, ids)).lay(image, MARK),
+            Drawing::Shown(Overlay::Faces { .. }) => {}
             Drawing::Shown(Overlay::Line { points, .. }) => scene.polyline(points).lay(image, LINE),
             Drawing::Shown(Overlay::Points { points, .. }) => scene.points(points).lay(image, POINT),
         }

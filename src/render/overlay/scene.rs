@@ -6,11 +6,10 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use rustc_hash::FxHashSet;
 
 use super::ink::blend;
 use super::marked::Marked;
-use super::{Ink, Radii, chart_colours, disc, share};
+use super::{Ink, Radii, disc, share};
 use crate::canvas::frame::View;
 use crate::canvas::image::Image;
 use crate::mesh::{FaceId, Mesh};
@@ -76,26 +75,13 @@ impl<'a> Scene<'a> {
         ink
     }
 
-    /// Every face in its chart's colour.
-    pub(super) fn charts(&self, image: &mut Image) {
-        let colours = chart_colours(self.mesh);
+    /// Colours faces, where they are nearest.
+    pub(super) fn colour(&self, image: &mut Image, colour: impl Fn(FaceId) -> Option<[u8; 3]>) {
         for (texel, nearest) in image.texels.iter_mut().zip(&self.nearest) {
-            if let Some(face) = nearest.face.some() {
-                blend(texel, colours[face.at()], share::FACE);
+            if let Some(colour) = nearest.face.some().and_then(&colour) {
+                blend(texel, colour, share::FACE);
             }
         }
-    }
-
-    /// Faces, where they are nearest.
-    pub(super) fn faces(&self, faces: &[u32]) -> Ink {
-        let faces: FxHashSet<FaceId> = faces.iter().copied().map(FaceId).collect();
-        let mut ink = self.ink();
-        for (at, nearest) in self.nearest.iter().enumerate() {
-            if faces.contains(&nearest.face) {
-                ink.ask(at, share::FACE);
-            }
-        }
-        ink
     }
 
     /// A line through points.

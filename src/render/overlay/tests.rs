@@ -217,3 +217,17 @@ fn the_face_at_texture_coordinates_is_the_one_that_is_tinted_there() {
     }
     assert_eq!(face_at_uv(&mesh, [f64::NAN, 0.5]), None);
 }
+
+#[test]
+fn a_face_in_several_sets_has_the_colour_of_the_last() {
+    let set = |name: &str, faces: &[u32]| Overlay::Faces { name: name.into(), faces: faces.into() };
+    let sets = [set("all", &[0, 1, 2, 3]), set("none", &[]), set("front", &[2, 3])];
+    let drawings: Vec<Drawing<'_>> = sets.iter().map(Drawing::Shown).collect();
+    assert_eq!(legend(&drawings), [("all", FACES[0]), ("front", FACES[2])]);
+    let [all, both] = [&drawings[..1], &drawings].map(drawn);
+    assert_eq!(all.at(25, 30), both.at(25, 30), "at the back");
+    let mut front = BLANK;
+    ink::blend(&mut front, FACES[2], share::FACE);
+    assert_eq!(both.at(40, 30), front, "nothing of the colour below");
+    assert_eq!(mapped(&drawings).at(20, 8), front);
+}

@@ -6,32 +6,32 @@
 use glam::{DVec2, Vec2, dvec2};
 
 use super::marked::Marked;
-use super::{Drawing, FACES, Ink, LINE, MARK, Radii, WIRE, chart_colours, disc, share};
+use super::{Drawing, Ink, MARK, Radii, WIRE, chart_colours, coloured, disc, face_colour, share};
 use crate::canvas::image::Image;
 use crate::mesh::{Edge, EdgeId, Face, FaceId, Mesh, NodeId, Surface, VertexId};
 use crate::render::overlay::ink::blend;
 use crate::render::spans::{COPIES, FARTHEST, Window, each_copy, place, spans};
-use crate::report::Overlay;
 
 /// Texels that a side must have on average to be drawn at full strength.
 const ROOMY: f64 = 8.0;
 
-/// Draws over a map of a mesh, in order.
+/// Draws over a map of a mesh: sets of faces first, and the rest in order.
 pub fn draw_uv(image: &mut Image, mesh: &Mesh, drawings: &[Drawing<'_>]) {
     if !mesh.is_textured() || image.texels.is_empty() {
         return;
     }
     let sheet = Sheet { mesh, size: image.size, radii: Radii::new(1) };
-    let mut colours = FACES.iter().cycle();
+    let coloured = coloured(drawings);
+    sheet.colour(image, |face| coloured.get(&face).map(|order| face_colour(*order)));
     for drawing in drawings {
         match drawing {
             Drawing::Wire => sheet.wire().lay(image, WIRE),
-            Drawing::Charts => sheet.charts(image),
-            Drawing::Marked(ids) => sheet.marked(&Marked::of(mesh, ids)).lay(image, MARK),
-            Drawing::Shown(Overlay::Faces { faces, .. }) => {
-                sheet.faces(faces).lay(image, *colours.next().unwrap_or(&LINE));
+            Drawing::Charts => {
+                let colours = chart_colours(mesh);
+                sheet.colour(image, |face| Some(colours[face.at()]));
             }
-            Drawing::Shown(Overlay::Line { .. } | Overlay::Points { .. }) => {}
+            Drawing::Marked(ids) => sheet.marked(&Marked::of(mesh, ids)).lay(image, MARK),
+            Drawing::Shown(_) => {}
         }
     }
 }
@@ -64,22 +64,17 @@ impl Sheet<'_> {
         !edge.is_boundary() && !self.mesh.is_seam(edge)
     }
 
-    fn charts(&self, image: &mut Image) {
-        let colours = chart_colours(self.mesh);
-        let mut seen = vec![FaceId::NONE; image.texels.len()];
-        (0..self.mesh.face_count()).map(FaceId::of).for_each(|face| self.fill(face, |at| seen[at] = face));
-        for (texel, face) in image.texels.iter_mut().zip(seen) {
-            if let Some(face) = face.some() {
-                blend(texel, colours[face.at()], share::FACE);
+    /// Colours faces; where two lie on each other, the later one.
+    fn colour(&self, image: &mut Image, colour: impl Fn(FaceId) -> Option<[u8; 3]>) {
+        let mut seen = vec![None; image.texels.len()];
+        for face in (0..self.mesh.face_count()).map(FaceId::of) {
+            if let Some(colour) = colour(face) {
+                self.fill(face, |at| seen[at] = Some(colour));
             }
         }
-    }
-
-    fn faces(&self, faces: &[u32]) -> Ink {
-        let mut ink = Ink::none(self.size);
-        let there = faces.iter().map(|face| FaceId(*face)).filter(|face| self.mesh.has_face(*face));
-        there.for_each(|face| self.fill(face, |at| ink.ask(at, share::FACE)));
-        ink
+        for (texel, colour) in image.texels.iter_mut().zip(seen) {
+            colour.into_iter().for_each(|colour| blend(texel, colour, share::FACE));
+        }
     }
 
     fn marked(&self, marked: &Marked) -> Ink {

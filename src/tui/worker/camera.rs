@@ -56,8 +56,7 @@ impl Camera {
         shot: &Shot,
     ) -> Result<Taken, String> {
         let Bare { mut image, sight } = self.bare(replay, shot)?;
-        let tinted = tinted(&shot.drawn.tint, overlays);
-        let drawings = drawings(&shot.drawn, overlays, &tinted);
+        let drawings = drawings(&shot.drawn, overlays);
         match (sight, replay.mesh()) {
             (Sight::View(view), Some(mesh)) => {
                 let reduction = Window::default().fit(image.size, shot.shown).reduction();
@@ -66,9 +65,8 @@ impl Camera {
             (Sight::Map, Some(mesh)) => overlay::draw_uv(&mut image, mesh, &drawings),
             (_, None) => {}
         }
-        let legend = tinted.iter().enumerate();
-        let legend = legend.map(|(at, set)| (set.name().to_owned(), overlay::face_colour(at))).collect();
-        Ok(Taken { image: Arc::new(image), sight, legend })
+        let legend = overlay::legend(&drawings).into_iter().map(|(name, colour)| (name.into(), colour));
+        Ok(Taken { legend: legend.collect(), image: Arc::new(image), sight })
     }
 
     fn bare(&mut self, replay: &mut dyn Replay, shot: &Shot) -> Result<Bare, String> {
@@ -116,26 +114,16 @@ pub(super) fn face_at(mesh: &Mesh, sight: &Sight, share: [f64; 2]) -> Option<Str
     face.map(|face| face.to_string())
 }
 
-/// The sets of a group. A face that is in several is coloured as in the last of them alone, so that colours do not mix.
-fn tinted(tint: &Tint, overlays: &[Overlay]) -> Vec<Overlay> {
-    let Tint::Group(group) = tint else { return Vec::new() };
-    let mut taken = rustc_hash::FxHashSet::default();
-    let mut sets = Vec::new();
-    for overlay in overlays.iter().rev().filter(|overlay| overlay.group() == group) {
-        if let Overlay::Faces { name, faces } = overlay {
-            let faces: Vec<u32> = faces.iter().copied().filter(|face| taken.insert(*face)).collect();
-            sets.push(Overlay::Faces { name: name.clone(), faces });
+fn drawings<'a>(drawn: &'a Drawn, overlays: &'a [Overlay]) -> Vec<Drawing<'a>> {
+    let mut drawings = Vec::new();
+    match &drawn.tint {
+        Tint::None => {}
+        Tint::Charts => drawings.push(Drawing::Charts),
+        Tint::Group(group) => {
+            let sets =
+                overlays.iter().filter(|set| matches!(set, Overlay::Faces { .. }) && set.group() == group);
+            drawings.extend(sets.map(Drawing::Shown));
         }
-    }
-    sets.reverse();
-    sets.retain(|set| !set.is_empty());
-    sets
-}
-
-fn drawings<'a>(drawn: &'a Drawn, overlays: &'a [Overlay], tinted: &'a [Overlay]) -> Vec<Drawing<'a>> {
-    let mut drawings: Vec<Drawing<'a>> = tinted.iter().map(Drawing::Shown).collect();
-    if drawn.tint == Tint::Charts {
-        drawings.push(Drawing::Charts);
     }
     if drawn.wire {
         drawings.push(Drawing::Wire);
@@ -154,23 +142,15 @@ fn drawings<'a>(drawn: &'a Drawn, overlays: &'a [Overlay], tinted: &'a [Overlay]
 mod tests {
     use super::*;
 
-    fn faces(name: &str, faces: &[u32]) -> Overlay {
-        Overlay::Faces { name: name.into(), faces: faces.into() }
-    }
-
     #[test]
-    fn a_face_has_one_colour_and_a_set_that_has_none_is_no_set() {
+    fn a_tint_is_a_group_of_sets_of_faces() {
+        let faces = |name: &str| Overlay::Faces { name: name.into(), faces: vec![1] };
         let line = Overlay::Line { name: "kind".into(), points: vec![[0.0; 3]] };
-        let overlays = [
-            faces("kind A", &[1, 2, 3]),
-            line,
-            faces("kind B", &[4]),
-            faces("kind C", &[2, 4]),
-            faces("rim", &[1]),
-        ];
-        let sets = tinted(&Tint::Group("kind".into()), &overlays);
-        assert_eq!(sets, [faces("kind A", &[1, 3]), faces("kind C", &[2, 4])]);
-        assert!(tinted(&Tint::Charts, &overlays).is_empty());
+        let overlays = [faces("kind A"), line, faces("kind B"), faces("rim")];
+        let drawn = Drawn { tint: Tint::Group("kind".into()), ..Drawn::default() };
+        assert_eq!(drawings(&drawn, &overlays), [0, 2].map(|at| Drawing::Shown(&overlays[at])));
+        let lines = Drawn { lines: true, ..Drawn::default() };
+        assert_eq!(drawings(&lines, &overlays), [Drawing::Shown(&overlays[1])]);
     }
 
     #[test]

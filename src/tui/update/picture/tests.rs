@@ -115,6 +115,7 @@ fn the_wheel_enlarges_what_is_under_the_pointer_and_shift_moves_it() {
     let mut model = shown();
     let area = picture::area(&model).expect("a place");
     let (x, y) = (area.x + area.width / 2 + 5, area.y + 3);
+    model.picture.window.zoom = 4.0;
     let medium = model.picture.medium;
     let under = |model: &Model| {
         let point = medium.middle([x - area.x, y - area.y]);
