@@ -78,6 +78,21 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, console: &mut Console<
     }
 }
 
+/// Whether these arguments, of which the first is the program's name, are some that it takes. An error says what is wrong.
+#[cfg(test)]
+pub(crate) fn parses(arguments: &[String]) -> Result<(), String> {
+    Args::try_parse_from(arguments).map(drop).map_err(|error| error.to_string())
+}
+
+/// The long flags of a command.
+#[cfg(test)]
+pub(crate) fn flags(command: &str) -> Vec<String> {
+    use clap::CommandFactory;
+    let all = Args::command();
+    let command = all.find_subcommand(command).expect("a command");
+    command.get_arguments().filter_map(|argument| argument.get_long()).map(str::to_owned).collect()
+}
+
 fn dispatch(command: Command, console: &mut Console<'_>) -> Done {
     match command {
         Command::Verify(typed) => verify::run(&typed, console),

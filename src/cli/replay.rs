@@ -14,9 +14,9 @@ type Replayed = Box<dyn replay::Replay>;
 pub(super) fn run(typed: &Replay, console: &mut Console<'_>) -> Done {
     require_possible(typed)?;
     let case = Case::open(&typed.recording)?;
-    let studio = match typed.frame {
-        Some(_) => Some(pixels::studio(typed.pixels.renderer, console)?),
-        None => None,
+    let studio = match makes_pixels(typed) {
+        true => Some(pixels::studio(typed.pixels.renderer, console)?),
+        false => None,
     };
     let (mut reports, mut last) = (Vec::new(), None);
     for _ in 0..typed.repeat {
@@ -35,6 +35,10 @@ pub(super) fn run(typed: &Replay, console: &mut Console<'_>) -> Done {
         console.err.note("the runs differ from one another: that is a bug of lancet's");
     }
     Ok(if same && report.totals.findings == 0 { Status::Verified } else { Status::Diverged })
+}
+
+fn makes_pixels(typed: &Replay) -> bool {
+    typed.makes_pixels || typed.frame.is_some()
 }
 
 /// What cannot be meant is refused before anything is replayed.
@@ -56,15 +60,14 @@ fn once(
     studio: Option<&dyn Studio>,
     console: &mut Console<'_>,
 ) -> Result<(Replayed, RunReport), Failure> {
-    let (everything, pictures) = (typed.pixels.no_skip, typed.frame.is_some());
+    let (everything, pictures) = (typed.pixels.no_skip, makes_pixels(typed));
     let options = Options { paranoid: typed.paranoid, everything, pictures, ..Options::default() };
     let mut replay = case.replay(&case.recording, options, studio)?;
     require_there(typed, replay.as_ref())?;
     let name = typed.recording.display().to_string();
     let (end, within) = match &typed.until {
         None => (replay.len(), None),
-        Some(Until { event, stage: None }) => (event + 1, None),
-        Some(Until { event, stage: Some(stage) }) => (*event, Some(stage)),
+        Some(Until { events, stage }) => (*events, stage.as_ref()),
     };
     let stopped = step_to(replay.as_mut(), end, &typed.stop_at, console);
     let report = match within {
@@ -77,8 +80,9 @@ fn once(
 /// What the recording has not is refused before anything is run.
 fn require_there(typed: &Replay, replay: &dyn replay::Replay) -> Result<(), Failure> {
     let (events, stages) = (replay.len(), replay.stages());
-    if let Some(until) = typed.until.as_ref().filter(|until| until.event >= events) {
-        return Err(Failure::new(format_args!("there is no event {}; there are {events}", until.event)));
+    let last = typed.until.as_ref().and_then(Until::event);
+    if let Some(event) = last.filter(|event| *event >= events) {
+        return Err(Failure::new(format_args!("there is no event {event}; there are {events}")));
     }
     let ids: Vec<&str> = stages.into_iter().map(|(id, _)| id).collect();
     let unknown = typed.stop_at.iter().find(|stop| stop.stage().is_some_and(|stage| !ids.contains(&stage)));

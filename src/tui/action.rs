@@ -1,7 +1,7 @@
 //! What can be done: one table, from which come the keys, the help, the palette, the hints of the status line and the commands that do the same.
 //!
-//! A row's command is what does the same, with the same data as JSON, from a shell: `{rec}` stands for the recording, `{place}` for EVENT or
-//! EVENT.STAGE, `{json}` for another run's report. What only moves about on the screen has none.
+//! A row's command is what does the same, with the same data as JSON, from a shell; `command` fills in what stands in braces: the recording, the
+//! place, what is drawn. What only moves about on the screen has none.
 
 use serde::Deserialize;
 
@@ -150,26 +150,26 @@ macro_rules! actions {
 
 /// All of them, in the order of the help.
 pub(in crate::tui) const ACTIONS: &[Row] = actions! {
-    NextEvent "next-event" Always ["l", "right"] "Step one event on" => "replay {rec} --until {place} --json -";
-    PreviousEvent "previous-event" Always ["h", "left"] "Step one event back" => "replay {rec} --until {place} --json -";
-    NextStage "next-stage" Always ["s", "shift-right"] "Step one stage on" => "replay {rec} --until {place} --json -";
-    PreviousStage "previous-stage" Always ["S", "shift-left"] "Step one stage back" => "replay {rec} --until {place} --json -";
-    NextCut "next-cut" Always ["c"] "Go to the next cut" => "replay {rec} --until {place} --json -";
-    PreviousCut "previous-cut" Always ["C"] "Go to the cut before" => "replay {rec} --until {place} --json -";
-    NextCheckpoint "next-checkpoint" Always ["]"] "Go to the next checkpoint" => "replay {rec} --until {place} --json -";
-    PreviousCheckpoint "previous-checkpoint" Always ["["] "Go to the checkpoint before" => "replay {rec} --until {place} --json -";
-    First "first" Always ["home"] "Go to before the first event" => "info {rec} --json -";
-    Last "last" Always ["end"] "Go to after the last event" => "replay {rec} --json -";
-    GoTo "go-to" Always ["#"] "Go to an event by its number, or to a stage of it, such as 4.2" => "replay {rec} --until {place} --json -";
-    FirstFinding "first-finding" Always ["f"] "Go to the first broken invariant" => "replay {rec} --stop-at finding --json -";
-    NextDivergence "next-divergence" Always ["d"] "Go to the next divergence from what it is compared with" => "verify {rec} --json -";
-    Play "play" Always ["space"] "Play on at a pace, or pause" => "replay {rec} --json -";
+    NextEvent "next-event" Always ["l", "right"] "Step one event on" => "replay {rec} --until {place} --pixels --json -";
+    PreviousEvent "previous-event" Always ["h", "left"] "Step one event back" => "replay {rec} --until {place} --pixels --json -";
+    NextStage "next-stage" Always ["s", "shift-right"] "Step one stage on" => "replay {rec} --until {place} --pixels --json -";
+    PreviousStage "previous-stage" Always ["S", "shift-left"] "Step one stage back" => "replay {rec} --until {place} --pixels --json -";
+    NextCut "next-cut" Always ["c"] "Go to the next cut" => "replay {rec} --until {place} --pixels --json -";
+    PreviousCut "previous-cut" Always ["C"] "Go to the cut before" => "replay {rec} --until {place} --pixels --json -";
+    NextCheckpoint "next-checkpoint" Always ["]"] "Go to the next checkpoint" => "replay {rec} --until {place} --pixels --json -";
+    PreviousCheckpoint "previous-checkpoint" Always ["["] "Go to the checkpoint before" => "replay {rec} --until {place} --pixels --json -";
+    First "first" Always ["home"] "Go to before the first event" => "replay {rec} --until {place} --pixels --json -";
+    Last "last" Always ["end"] "Go to after the last event" => "replay {rec} --pixels --json -";
+    GoTo "go-to" Always ["#"] "Go to an event by its number, or to a stage of it, such as 4.2" => "replay {rec} --until {place} --pixels --json -";
+    FirstFinding "first-finding" Always ["f"] "Go to the first broken invariant" => "replay {rec} --stop-at finding --pixels --json -";
+    NextDivergence "next-divergence" Always ["d"] "Go to the next divergence from what it is compared with" => "{compare} --json -";
+    Play "play" Always ["space"] "Play on at a pace, or pause" => "replay {rec} --pixels --json -";
     Faster "faster" Always [">"] "Play faster";
     Slower "slower" Always ["<"] "Play slower";
-    RunOn "run-on" Always ["R"] "Run on to where one of the breakpoints holds, or to the end" => "replay {rec} --stop-at {stop} --json -";
-    Stops "breakpoints" Always ["b"] "Set, look at and drop breakpoints" => "replay {rec} --stop-at {stop} --json -";
+    RunOn "run-on" Always ["R"] "Run on to where one of the breakpoints holds, or to the end" => "replay {rec} {stops} --pixels --json -";
+    Stops "breakpoints" Always ["b"] "Set, look at and drop breakpoints" => "replay {rec} {stops} --pixels --json -";
     Cancel "cancel" Always ["esc"] "Stop what is going on; close what is open";
-    Check "check" Always ["v"] "Look at the invariants of the whole state, here" => "replay {rec} --until {place} --paranoid --json -";
+    Check "check" Always ["v"] "Look at the invariants of the whole state, here" => "replay {rec} --until {place} --paranoid --pixels --json -";
     Compare "compare" Always ["="] "Compare the run with its goldens" => "verify {rec} --json -";
     CompareWith "compare-with" Always ["+"] "Compare the run with another run's JSON" => "diff {json} {rec} --json -";
     Up "up" List ["k", "up"] "Go one row up";
@@ -178,11 +178,11 @@ pub(in crate::tui) const ACTIONS: &[Row] = actions! {
     PageDown "page-down" List ["pgdn", "ctrl-d"] "Go a page down";
     Top "top" List ["g"] "Go to the first row";
     Bottom "bottom" List ["G"] "Go to the last row";
-    Select "select" List ["enter"] "Select what the row is about, everywhere" => "replay {rec} --until {place} --select {ids} --frame {png}";
+    Select "select" List ["enter"] "Select what the row is about, everywhere" => "replay {rec} --until {place} --frame {png} {select}";
     SelectNothing "select-nothing" Always ["x"] "Select nothing";
-    Copy "copy" Always ["y"] "Copy what is selected" => "replay {rec} --until {place} --json -";
-    CopyCommand "copy-command" Always ["Y"] "Copy the command that shows the same as this screen" => "replay {rec} --until {place} --json -";
-    NextTable "next-table" Always ["t"] "Show the next table" => "replay {rec} --until {place} --json -";
+    Copy "copy" Always ["y"] "Copy what is selected" => "replay {rec} --until {place} --pixels --json -";
+    CopyCommand "copy-command" Always ["Y"] "Copy the command that shows the same as this screen" => "replay {rec} --until {place} --json - --frame {png} {shown}";
+    NextTable "next-table" Always ["t"] "Show the next table" => "replay {rec} --until {place} --pixels --json -";
     FocusNext "focus-next" Always ["tab"] "Go to the next pane";
     FocusPrevious "focus-previous" Always ["shift-tab"] "Go to the pane before";
     FocusTimeline "focus-timeline" Always ["1"] "Go to the timeline";
@@ -194,9 +194,9 @@ pub(in crate::tui) const ACTIONS: &[Row] = actions! {
     FocusDifferences "focus-differences" Always ["7"] "Go to the differences";
     Maximise "maximise" Always ["z"] "Show the focused pane alone, or all again";
     Wire "wire" Always ["w"] "Draw the mesh's edges over the picture" => "replay {rec} --until {place} --frame {png} --overlay wire";
-    Lines "lines" Always ["i"] "Draw the line and the picks over the picture" => "replay {rec} --until {place} --frame {png} --overlay line";
-    Tint "tint" Always ["o"] "Colour the faces by chart, or by what the report groups them by" => "replay {rec} --until {place} --frame {png} --overlay charts";
-    Subject "subject" Always ["m"] "Show the next map, or the frame again" => "replay {rec} --until {place} --frame {png} --map colour";
+    Lines "lines" Always ["i"] "Draw the line and the picks over the picture" => "replay {rec} --until {place} --frame {png} {lines}";
+    Tint "tint" Always ["o"] "Colour the faces by chart, or by what the report groups them by" => "replay {rec} --until {place} --frame {png} {tint}";
+    Subject "subject" Always ["m"] "Show the next map, or the frame again" => "replay {rec} --until {place} --frame {png} {map}";
     Split "golden" Always ["M"] "Show the golden picture, the difference, or the frame again" => "verify {rec} --html {dir}";
     SplitLeft "split-left" Picture ["{"] "Move the slider between golden and actual to the left";
     SplitRight "split-right" Picture ["}"] "Move the slider between golden and actual to the right";
@@ -213,7 +213,7 @@ pub(in crate::tui) const ACTIONS: &[Row] = actions! {
     PanUp "pan-up" Picture ["alt-up"] "Move up in the enlarged picture";
     PanDown "pan-down" Picture ["alt-down"] "Move down in the enlarged picture";
     ResetView "reset-view" Always ["0"] "Look from where the recording does, at all of it" => "replay {rec} --until {place} --frame {png}";
-    SaveFrame "save-picture" Always ["P"] "Write the picture as PNG" => "replay {rec} --until {place} --frame {png}";
+    SaveFrame "save-picture" Always ["P"] "Write the picture as PNG" => "replay {rec} --until {place} --frame {png} {shown}";
     Record "record" Always ["r"] "Record on from here, in a copy; or stop recording" => "pack {script} -o {rec}";
     RecordNew "record-new" Always ["ctrl-n"] "Record anew, on a scene" => "pack {script} -o {rec}";
     Point "point" Recording ["enter"] "Point at the cross-hair: two points make a cut" => "pack {script} -o {rec}";
@@ -232,10 +232,10 @@ pub(in crate::tui) const ACTIONS: &[Row] = actions! {
     Event "event" Recording ["n"] "Type an event as it stands in a script" => "pack {script} -o {rec}";
     Drop "drop" Recording ["backspace"] "Drop the last event" => "pack {script} -o {rec}";
     Save "save" Always ["ctrl-s"] "Save the recording" => "pack {script} -o {rec}";
-    Open "open" Always ["ctrl-o"] "Open a recording" => "replay {rec} --json -";
+    Open "open" Always ["ctrl-o"] "Open a recording" => "info {rec} --json -";
     Help "help" Always ["?", "f1"] "Show all keys";
     Palette "palette" Always [":"] "Find an action by its name";
-    Search "search" Always ["/"] "Search the timeline and the tables" => "unpack {rec}";
+    Search "search" Always ["/"] "Search the timeline and the tables" => "replay {rec} --pixels --json -";
     NextMatch "next-match" Always ["n"] "Go to the next match";
     PreviousMatch "previous-match" Always ["N"] "Go to the match before";
     Suspend "suspend" Always ["ctrl-z"] "Go to the background";

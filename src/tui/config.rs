@@ -12,6 +12,7 @@ use etcetera::BaseStrategy as _;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::image::protocol::ImageProtocol;
 use super::key::Key;
 use super::theme::{self, Base, Choice, Role};
 use crate::assets::{self, AssetError};
@@ -57,33 +58,6 @@ pub struct Known {
     pub name: &'static str,
     /// Where its keys count: with those of the same number.
     pub scope: usize,
-}
-
-/// How pictures are shown.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum ImageProtocol {
-    /// What the terminal answers that it knows.
-    #[default]
-    Auto,
-    /// Kitty's graphics.
-    Kitty,
-    /// Sixels.
-    Sixel,
-    /// iTerm2's inline images.
-    Iterm2,
-    /// Two coloured halves in each cell, which every terminal shows.
-    Halfblocks,
-}
-
-impl ImageProtocol {
-    /// Every protocol with its name.
-    pub const NAMES: [(&'static str, Self); 5] = [
-        ("auto", Self::Auto),
-        ("kitty", Self::Kitty),
-        ("sixel", Self::Sixel),
-        ("iterm2", Self::Iterm2),
-        ("halfblocks", Self::Halfblocks),
-    ];
 }
 
 /// What is wrong with a file of settings.
@@ -189,7 +163,10 @@ fn settings(text: &str, actions: &[Known]) -> Result<Config, Fault> {
             "mouse" => {
                 config.mouse = value.get_ref().as_bool().ok_or_else(|| wants("true or false", value))?
             }
-            "image-protocol" => config.image_protocol = one_of(value, &ImageProtocol::NAMES)?,
+            "image-protocol" => {
+                let named = ImageProtocol::ALL.map(|protocol| (protocol.name(), protocol));
+                config.image_protocol = one_of(value, &named)?;
+            }
             "theme" => config.theme = choice(table_of(value)?)?,
             "keys" => config.keys = keys(table_of(value)?, actions)?,
             _ => return Err(unknown("setting", name, span, &["mouse", "image-protocol", "theme", "keys"])),

@@ -12,6 +12,7 @@
 
 mod action;
 pub mod colour;
+mod command;
 mod compare;
 pub mod config;
 mod edit;
@@ -33,6 +34,8 @@ pub mod screen;
 mod shot;
 mod stage;
 mod status;
+#[cfg(test)]
+mod suite;
 mod tabs;
 pub mod terminal;
 #[cfg(test)]

@@ -9,13 +9,15 @@ use crossterm::event::{Event, KeyEvent};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
+use super::compare::Comparisons;
+use super::image::encoder::encode;
 use super::key::Key;
 use super::keys::Keys;
 use super::model::{Effect, Model};
 use super::run::Start;
 use super::theme::Theme;
 use super::worker::{Desk, Line, Told};
-use super::{events, update, view};
+use super::{events, picture, update, view};
 use crate::report::EventReport;
 
 /// Rounds of asking and telling after which nothing new can come of it.
@@ -23,7 +25,7 @@ const ROUNDS: usize = 10_000;
 
 /// See the module.
 pub struct Stage {
-    model: Model,
+    pub(in crate::tui) model: Model,
     theme: Theme,
     keys: Keys,
     desk: Desk,
@@ -35,9 +37,10 @@ pub struct Stage {
 impl Stage {
     /// The screen as it is once everything is done that it begins with. With steady times no figure depends on the machine.
     pub fn open(start: &Start, theme: Theme, size: [u16; 2], steady: bool) -> Self {
-        let model = Model { size, ..Model::default() };
+        let comparisons = Comparisons::first(start.compare.clone());
+        let model = Model { size, comparisons, ..Model::default() };
         let keys = Keys::new(&start.config.keys);
-        let desk = Desk::new(start.renderer, start.budget_bytes);
+        let desk = Desk::new(start.renderer, start.budget_bytes).with_drafts(start.drafts.clone());
         let mut stage = Self { model, theme, keys, desk, steady, copied: Vec::new() };
         update::begin(&mut stage.model, start.recording.clone());
         stage.settle();
@@ -84,16 +87,26 @@ impl Stage {
     }
 
     /// Does what is asked, until nothing is.
-    fn settle(&mut self) {
+    pub(in crate::tui) fn settle(&mut self) {
         for _ in 0..ROUNDS {
-            update::want_picture(&mut self.model);
+            update::picture::want(&mut self.model);
             let effects = std::mem::take(&mut self.model.effects);
-            if effects.is_empty() {
+            if effects.is_empty() && !self.show() {
                 return;
             }
             effects.into_iter().for_each(|effect| self.carry_out(effect));
         }
         debug_assert!(false, "one thing leads to another without end");
+    }
+
+    /// Makes the picture ready that is to be seen. Whether it is another.
+    fn show(&mut self) -> bool {
+        let Some(request) = picture::request(&self.model) else { return false };
+        let other = self.model.picture.encoded.as_ref().is_none_or(|encoded| !encoded.answers(&request));
+        if other {
+            update::picture::encoded(&mut self.model, encode(&request));
+        }
+        other && self.model.picture.encoded.is_some()
     }
 
     fn carry_out(&mut self, effect: Effect) {

@@ -30,6 +30,9 @@ impl FromStr for Size {
     }
 }
 
+/// Before the first event.
+const START: &str = "start";
+
 /// A setting by its name, and its value as JSON.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::cli) struct Setting {
@@ -47,19 +50,31 @@ impl FromStr for Setting {
     }
 }
 
-/// Where a replay stops.
+/// Where a replay stops: after so many events, or within the next one after a stage.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(in crate::cli) struct Until {
-    pub(in crate::cli) event: usize,
+    pub(in crate::cli) events: usize,
     pub(in crate::cli) stage: Option<String>,
+}
+
+impl Until {
+    /// The last event that it names; none before the first.
+    pub(in crate::cli) fn event(&self) -> Option<usize> {
+        if self.stage.is_some() { Some(self.events) } else { self.events.checked_sub(1) }
+    }
 }
 
 impl FromStr for Until {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
+        if text == START {
+            return Ok(Self { events: 0, stage: None });
+        }
         let (event, stage) = text.split_once('.').map_or((text, None), |(event, stage)| (event, Some(stage)));
-        let event = event.parse().map_err(|_| "not EVENT or EVENT.STAGE, such as 4 or 4.MC".to_owned())?;
-        Ok(Self { event, stage: stage.map(str::to_owned) })
+        let wrong = || format!("not EVENT, EVENT.STAGE or {START}, such as 4 or 4.MC");
+        let event: usize = event.parse().map_err(|_| wrong())?;
+        let whole = event.checked_add(1).ok_or_else(wrong)?;
+        Ok(Self { events: if stage.is_some() { event } else { whole }, stage: stage.map(str::to_owned) })
     }
 }

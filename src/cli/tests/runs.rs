@@ -57,6 +57,8 @@ fn a_replay_stops_where_it_is_told() {
     assert_eq!((&stages[0]["skipped"], &stages[3]["skipped"]), (&Value::Null, &"until".into()));
     assert!(complaint(&["replay", &script, "--until", "6"]).contains("there is no event 6; there are 6"));
     assert!(complaint(&["replay", &script, "--until", "2.XY"]).contains("XY"));
+    assert_eq!(events("start").as_array().map(Vec::len), Some(0));
+    assert!(complaint(&["replay", &script, "--until", "18446744073709551615"]).contains("not EVENT"));
     assert!(complaint(&["replay", &script, "--until", "x"]).contains("4 or 4.MC"));
 }
 
@@ -175,6 +177,20 @@ fn elements_are_marked_in_a_frame_and_in_a_map() {
     assert!(error.contains("--overlay line: it lies in space"), "{error}");
     let error = complaint(&[&replay(script)[..], &["--zenith", "1", "--map", "colour"]].concat());
     assert!(error.contains("cannot be used with"), "{error}");
+}
+
+#[test]
+fn the_invariants_of_pixels_are_looked_at_where_pixels_are_made() {
+    let (folder, _) = square();
+    let uv = "[[0, 1, 2], [0, 2, 3]], \"uv\": [[0, 0], [1, 0], [1, 1], [0, 1]]";
+    let script = folder.path().join("textured.json");
+    std::fs::write(&script, SQUARE.replace("[[0, 1, 2], [0, 2, 3]]", uv)).unwrap();
+    let checks = |rest: &[&str]| {
+        let replay = ["replay", script.to_str().unwrap(), "--renderer", "reference", "--json", "-"];
+        let report = json(&lancet(&[&replay[..], rest].concat()).1);
+        report["events"][2]["stages"][1]["checks"].as_array().unwrap().len()
+    };
+    assert!(checks(&["--pixels"]) > checks(&[]));
 }
 
 #[test]

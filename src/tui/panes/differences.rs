@@ -3,10 +3,10 @@
 //! ```text
 //! ┌7 differences the goldens───────────────────────────────────────────┐
 //! │✗ not as the goldens: 2 values differ, 1 pictures differ            │
-//! │▸  4 ✗ MC nodes n120     (0.1, 2.0, 0.0)    (0.1, 2.0000000000000004│
-//! │   4 ✗ counter links     12                 13                      │
-//! │   9 ✗ picture after     tile 12.3, outliers 40, …                  │
-//! │  12 ✓ picture end       equal                                      │
+//! │◆   4 ✗ MC nodes n120     (0.1, 2.0, 0.0)    (0.1, 2.000000000000000│
+//! │    4 ✗ counter links     12                 13                     │
+//! │    9 ✗ picture after     tile 12.3, outliers 40, …                 │
+//! │   12 ✓ picture end       equal                                     │
 //! │                                                                    │
 //! │expected (0.1, 2.0, 0.0)                                            │
 //! │found    (0.1, 2.0000000000000004, 0.0) (1 ulp)                     │
@@ -16,21 +16,25 @@
 //! Where there is no room for columns of values, the chosen row's stand below alone.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Paragraph, Widget, Wrap};
 
+use super::rows;
 use crate::tui::compare::{At, Differences, Row, verdict};
 use crate::tui::model::{Model, Pane};
-use crate::tui::text::{fit, line, pad, width};
+use crate::tui::text::{fit, line, pad};
 use crate::tui::theme::{Role, Theme};
 use crate::verify::{ComparedPicture, Divergence, ImageVerdict};
 
 /// Cells from which there are columns of values, and how wide the column of names is then.
 const COLUMNS: usize = 70;
 const NAME: usize = 26;
-/// Cells before a row's text: the cursor, the event, the mark.
-const HEAD: usize = 8;
+/// Cells before a row's text: what is selected, the event, the mark.
+const HEAD: usize = 9;
+/// Lines that the chosen row has below, where there is room; and how many lines there have to be for any.
+const SAID: u16 = 4;
+const ROOM: u16 = 5;
 
 pub(super) fn about(model: &Model) -> String {
     match (&model.comparing, &model.differences) {
@@ -48,90 +52,93 @@ pub(super) fn ids(model: &Model) -> Vec<String> {
     chosen(model).map_or(Vec::new(), |(differences, row)| differences.ids(row))
 }
 
+pub(super) fn marked(model: &Model) -> Vec<usize> {
+    let Some(differences) = &model.differences else { return Vec::new() };
+    let rows = differences.rows.iter().enumerate();
+    rows.filter(|(_, row)| model.any_selected(&differences.ids(row))).map(|(at, _)| at).collect()
+}
+
+/// Event, name and all that is said of each row.
+pub(super) fn texts(model: &Model) -> Vec<String> {
+    let Some(differences) = &model.differences else { return Vec::new() };
+    let text = |row: &Row| {
+        let said = said(differences, row).into_iter().map(|(_, text)| text);
+        [at(differences, row), name(differences, row)].into_iter().chain(said).collect::<Vec<_>>().join("\t")
+    };
+    differences.rows.iter().map(text).collect()
+}
+
+/// Why there are no rows.
+pub(super) fn nothing(model: &Model) -> &'static str {
+    match (&model.comparing, &model.differences) {
+        (Some(_), _) => "comparing…",
+        (None, None) => {
+            "nothing is compared yet: `compare` does it with the goldens, `compare-with` with another run"
+        }
+        (None, Some(_)) => "nothing differs",
+    }
+}
+
 fn chosen(model: &Model) -> Option<(&Differences, &Row)> {
     let differences = model.differences.as_ref()?;
     let row = model.lists.differences.selected(differences.rows.len())?;
     Some((differences, &differences.rows[row]))
 }
 
-pub(super) fn draw(model: &Model, theme: &Theme, area: Rect, buffer: &mut Buffer) {
-    let Some(differences) = &model.differences else { return nothing(model, theme, area, buffer) };
-    let said = chosen(model).map_or(Vec::new(), |(all, row)| said(all, row));
-    let below = height(&said, area);
-    let parts = [Constraint::Length(1), Constraint::Fill(1), Constraint::Length(below)];
-    let [top, list, bottom] = area.layout(&Layout::vertical(parts));
-    let role = if differences.verified { Role::Good } else { Role::Bad };
-    Line::styled(format!("{} {}", role.mark(), line(&verdict(differences))), theme.style(role))
-        .render(top, buffer);
-    rows(model, differences, theme, list, buffer);
-    let said = said.into_iter().map(|(name, text)| labelled(name, text, theme)).collect::<Vec<_>>();
-    Paragraph::new(said).wrap(Wrap { trim: false }).render(bottom, buffer);
+/// The part that has the rows: below the verdict, and above what the chosen row says.
+pub(super) fn body(area: Rect) -> Rect {
+    let head = u16::from(area.height > 1);
+    let said = if area.height < ROOM { 0 } else { SAID.min(area.height / 2) };
+    Rect { y: area.y + head, height: area.height - head - said, ..area }
 }
 
-/// Before anything was compared.
-fn nothing(model: &Model, theme: &Theme, area: Rect, buffer: &mut Buffer) {
-    let text = match model.comparing {
-        Some(_) => "comparing…",
-        None => "nothing is compared yet: compare does it with the goldens, compare-with with another run",
-    };
-    let text = Paragraph::new(text).wrap(Wrap { trim: true }).style(theme.style(Role::Faint));
-    text.render(area, buffer);
-}
-
-fn labelled<'a>(name: &'a str, text: String, theme: &Theme) -> Line<'a> {
-    Line::from(vec![Span::styled(name, theme.style(Role::Faint)), Span::raw(text)])
-}
-
-/// Lines that what is said takes at most, and no more than half of the pane; none in a pane that is hardly there.
-fn height(said: &[(&str, String)], area: Rect) -> u16 {
-    let wide = usize::from(area.width).max(1);
-    // Words that do not fit are moved on whole, which wastes some cells of a line.
-    let lines = |(name, text): &(&str, String)| (width(name) + width(text)).div_ceil(wide * 4 / 5 + 1).max(1);
-    let lines: usize = said.iter().map(lines).sum();
-    if area.height < 4 { 0 } else { (area.height / 2).min(lines.min(usize::from(u16::MAX)) as u16) }
-}
-
-fn rows(model: &Model, differences: &Differences, theme: &Theme, area: Rect, buffer: &mut Buffer) {
-    let list = &model.lists.differences;
-    let chosen = list.selected(differences.rows.len());
-    for (y, at) in (area.y..).zip(list.window(area.height.into(), differences.rows.len())) {
-        let place = Rect { y, height: 1, ..area };
-        let row = &differences.rows[at];
-        if Some(at) == chosen {
-            let role = if model.focus == Pane::Differences { Role::Selected } else { Role::Idle };
-            buffer.set_style(place, theme.style(role));
-        }
-        entry(differences, row, Some(at) == chosen, theme, area.width.into()).render(place, buffer);
+pub(super) fn draw(model: &Model, theme: &Theme, area: Rect, body: Rect, buffer: &mut Buffer) {
+    let Some((differences, chosen)) = chosen(model) else { return };
+    if body.y > area.y {
+        let role = if differences.verified { Role::Good } else { Role::Bad };
+        let text = fit(&format!("{} {}", role.mark(), verdict(differences)), area.width.into());
+        Line::styled(text, theme.style(role)).render(Rect { height: 1, ..area }, buffer);
     }
+    rows::draw(Pane::Differences, model, theme, body, buffer, |row, width| {
+        let row = &differences.rows[row];
+        entry(differences, row, model.any_selected(&differences.ids(row)), theme, width)
+    });
+    let below = Rect { y: body.bottom(), height: area.bottom() - body.bottom(), ..area };
+    let said = said(differences, chosen)
+        .into_iter()
+        .map(|(name, text)| Line::from(vec![Span::styled(name, theme.style(Role::Faint)), Span::raw(text)]));
+    Paragraph::new(said.collect::<Vec<_>>()).wrap(Wrap { trim: false }).render(below, buffer);
 }
 
-fn entry<'a>(differences: &Differences, row: &Row, chosen: bool, theme: &Theme, wide: usize) -> Line<'a> {
+fn entry(differences: &Differences, row: &Row, selected: bool, theme: &Theme, wide: usize) -> Line<'static> {
     let role = if differences.is_fine(row) { Role::Good } else { Role::Bad };
-    let cursor = if chosen { Role::Selected.mark() } else { " " };
-    let event = match differences.at(row) {
-        Some(At::Event(event)) => event.to_string(),
-        Some(At::Start) => "start".into(),
-        Some(At::End) => "end".into(),
-        None => String::new(),
-    };
     Line::from(vec![
-        Span::raw(format!("{cursor}{event:>4} ")),
+        rows::mark(selected, theme),
+        Span::styled(format!("{:>4} ", fit(&at(differences, row), 4)), theme.style(Role::Faint)),
         Span::styled(format!("{} ", role.mark()), theme.style(role)),
         Span::raw(cells(differences, row, wide.saturating_sub(HEAD))),
     ])
 }
 
+/// The event of a row, or what stands for it.
+fn at(differences: &Differences, row: &Row) -> String {
+    match differences.at(row) {
+        Some(At::Event(event)) => event.to_string(),
+        Some(At::Start) => "0".into(),
+        Some(At::End) => "end".into(),
+        None => String::new(),
+    }
+}
+
 /// What a row says in its line.
 fn cells(differences: &Differences, row: &Row, wide: usize) -> String {
-    let (name, values) = match row {
-        Row::Problem(problem) => return fit(problem, wide),
-        Row::Value(value) => (name(value), vec![value.expected.clone(), value.found.clone()]),
-        Row::Picture(at) => {
-            let picture = &differences.pictures[*at];
-            (format!("picture {}", picture.checkpoint), vec![measured(picture)])
-        }
+    let name = name(differences, row);
+    let values = match row {
+        Row::Problem(_) => Vec::new(),
+        Row::Value(value) => vec![value.expected.clone(), value.found.clone()],
+        Row::Picture(at) => vec![measured(&differences.pictures[*at])],
     };
-    if wide + HEAD < COLUMNS {
+    if values.is_empty() || wide + HEAD < COLUMNS {
         return fit(&name, wide);
     }
     let each = (wide - NAME) / values.len();
@@ -139,14 +146,22 @@ fn cells(differences: &Differences, row: &Row, wide: usize) -> String {
     pad(&name, NAME - 1) + " " + &values.collect::<String>()
 }
 
-/// What differs, without the event.
-fn name(value: &Divergence) -> String {
-    let event = value.event.map_or(String::new(), |event| format!("event {event} "));
-    let what = value.what.strip_prefix(&event).unwrap_or(&value.what);
+/// What a row is about, without its event.
+fn name(differences: &Differences, row: &Row) -> String {
+    match row {
+        Row::Problem(problem) => line(problem),
+        Row::Value(value) => line(&what(value)),
+        Row::Picture(at) => format!("picture {}", line(&differences.pictures[*at].checkpoint)),
+    }
+}
+
+fn what(value: &Divergence) -> String {
+    let event = value.event.map_or(String::new(), |event| format!("event {event}"));
+    let what = value.what.strip_prefix(&event).unwrap_or(&value.what).trim_start();
     match (&value.stage, &value.buffer, &value.element) {
         (Some(stage), Some(buffer), Some(element)) => format!("{stage} {buffer} {element}"),
         (Some(stage), Some(buffer), None) => format!("{stage} {buffer}"),
-        _ if what.is_empty() || Some(what) == event.strip_suffix(' ') => "outcome".into(),
+        _ if what.is_empty() => "outcome".into(),
         _ => what.into(),
     }
 }
@@ -172,20 +187,21 @@ fn said(differences: &Differences, row: &Row) -> Vec<(&'static str, String)> {
                 .chain(note)
                 .collect()
         }
-        Row::Picture(at) => {
-            let picture = &differences.pictures[*at];
-            let gate = &picture.report.gate;
-            let missed = picture
-                .report
-                .problems()
-                .into_iter()
-                .filter(|_| picture.report.verdict != ImageVerdict::Beyond);
-            let missed = missed.map(|problem| ("", line(&problem)));
-            let measured = [
-                ("found    ", line(&measured(picture))),
-                ("at most  ", line(&format!("{} ({})", gate.most, gate.of))),
-            ];
-            measured.into_iter().chain(missed).collect()
-        }
+        Row::Picture(at) => of_picture(&differences.pictures[*at]),
     }
 }
+
+fn of_picture(picture: &ComparedPicture) -> Vec<(&'static str, String)> {
+    let gate = &picture.report.gate;
+    let measured = [
+        ("found    ", line(&measured(picture))),
+        ("at most  ", line(&format!("{} ({})", gate.most, gate.of))),
+    ];
+    // That it is beyond its gate is said already.
+    let beyond = usize::from(picture.report.verdict == ImageVerdict::Beyond);
+    let missed = picture.report.problems().into_iter().skip(beyond).map(|problem| ("", line(&problem)));
+    measured.into_iter().chain(missed).collect()
+}
+
+#[cfg(test)]
+mod tests;

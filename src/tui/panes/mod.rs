@@ -28,7 +28,8 @@ pub(super) fn draw(pane: Pane, model: &Model, theme: &Theme, area: Rect, buffer:
         Pane::Mesh => mesh::nothing(model),
         Pane::Tables => tables::nothing(model),
         Pane::Checks => checks::nothing(model),
-        Pane::Timeline | Pane::Picture | Pane::Differences => "",
+        Pane::Differences => differences::nothing(model),
+        Pane::Timeline | Pane::Picture => "",
     };
     if !why.is_empty() && len(model, pane) == 0 {
         return rows::nothing(why, theme, area, buffer);
@@ -37,15 +38,18 @@ pub(super) fn draw(pane: Pane, model: &Model, theme: &Theme, area: Rect, buffer:
         Pane::Timeline => timeline::draw(model, theme, area, buffer),
         Pane::Stages => stages::draw(model, theme, area, buffer),
         Pane::Mesh => mesh::draw(model, theme, area, body, buffer),
-        Pane::Picture => picture::draw(model, theme, area, buffer),
+        Pane::Picture => picture::draw(model, theme, buffer),
         Pane::Tables => tables::draw(model, theme, area, body, buffer),
         Pane::Checks => checks::draw(model, theme, area, buffer),
-        Pane::Differences => differences::draw(model, theme, area, buffer),
+        Pane::Differences => differences::draw(model, theme, area, body, buffer),
     }
 }
 
 /// The part of a pane's content that has its rows: below the heads, where there are any and room for them.
 pub(super) fn body(pane: Pane, area: Rect) -> Rect {
+    if pane == Pane::Differences {
+        return differences::body(area);
+    }
     let head = u16::from(matches!(pane, Pane::Tables | Pane::Mesh) && area.height > 1);
     Rect { y: area.y + head, height: area.height - head, ..area }
 }
@@ -84,7 +88,8 @@ pub(super) fn texts(model: &Model, pane: Pane) -> Vec<String> {
         Pane::Mesh => mesh::texts(model),
         Pane::Tables => tables::texts(model),
         Pane::Checks => checks::texts(model),
-        Pane::Picture | Pane::Differences => Vec::new(),
+        Pane::Differences => differences::texts(model),
+        Pane::Picture => Vec::new(),
     }
 }
 
@@ -110,6 +115,7 @@ pub(super) fn marked(model: &Model, pane: Pane) -> Vec<usize> {
     match pane {
         Pane::Tables => tables::marked(model),
         Pane::Checks => checks::marked(model),
+        Pane::Differences => differences::marked(model),
         _ => Vec::new(),
     }
 }

@@ -6,12 +6,12 @@
 //!   1 … click 580 235
 //! ● 2◆✓ click 700 250                    1.41 ms
 //!   3 ! cut node 17 edge 40 0.5 silhouette
-//!   4 ✓ click 702 318 ▸ after FC         1.20 ms
+//!   4 ✓≠click 702 318 ▸ after FC         1.20 ms
 //!   5 ⚑ checkpoint end
 //! ```
 //!
-//! First stands a breakpoint that would hit, then the number, then a mark where the event has to do with what is selected, then what became of it, in its own
-//! words. What has not run yet is fainter.
+//! First stands a breakpoint that would hit, then the number, then a mark where the event has to do with what is selected, then what became of it, and
+//! whether that is not as in what the run is compared with; then its own words. What has not run yet is fainter.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -133,13 +133,14 @@ impl Entry<'_> {
         let digits = self.model.len().saturating_sub(1).to_string().len().max(2);
         let stops = self.report.is_some_and(|report| self.model.stops.iter().any(|stop| stop.hits(report)));
         let selected = self.report.is_some_and(|report| self.has_selected(report));
+        let differs = self.model.differences.as_ref().is_some_and(|differences| differences.has(self.event));
         let (mark, role) = self.report.map_or((" ", Role::Faint), outcome);
         vec![
             Span::styled(if stops { "●" } else { " " }, style(Role::Warn)),
             Span::styled(format!("{:>digits$}", self.event), style(Role::Faint)),
             Span::styled(if selected { Role::Marked.mark() } else { " " }, style(Role::Marked)),
             Span::styled(mark, style(role)),
-            Span::raw(" "),
+            Span::styled(if differs { "≠" } else { " " }, style(Role::Bad)),
         ]
     }
 

@@ -55,7 +55,7 @@ impl Question {
             ],
             Self::CompareWith => ["compare with another run's JSON", "other-run.json"],
             Self::Checkpoint => ["set a checkpoint", "a name of its own, such as after-the-second-cut"],
-            Self::Event => ["type an event as it stands in a script", "click 320 240"],
+            Self::Event => ["type an event as it stands in a script", r#"{"undo": {}}"#],
             Self::Save => ["save the recording", "recordings/mine.lancet"],
             Self::SavePicture => ["write the picture", "frame.png"],
             Self::Scene => ["record on a scene", "builtin:bust, or a scene's or mesh's file"],

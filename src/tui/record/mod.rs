@@ -5,6 +5,8 @@
 
 pub(in crate::tui) mod cross;
 mod drafts;
+#[cfg(test)]
+mod tests;
 
 use std::path::PathBuf;
 

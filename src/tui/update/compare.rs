@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use crate::assets;
 use crate::report::printable;
 use crate::tui::action::Action;
+use crate::tui::command;
 use crate::tui::compare::{self, Comparing, Comparisons, Differences, Job, Row, With};
 use crate::tui::model::{Model, Pane};
 use crate::tui::worker::Ask;
@@ -34,20 +35,13 @@ pub(in crate::tui) fn begin(model: &mut Model, with: With, then_go: bool) {
 }
 
 fn try_to_begin(model: &mut Model, with: With, then_go: bool) -> Result<(), String> {
-    let path = file(model)?;
+    let path = command::file(model)?.to_owned();
     model.comparisons.begun += 1;
     let job = Job { number: model.comparisons.begun, path, with };
     model.say(format!("comparing with {}", job.with.name()));
     model.comparing = Some(Comparing { job: job.clone(), done: 0, of: 0, then_go });
     model.ask(Ask::Compare(job));
     Ok(())
-}
-
-/// The file that is compared: what is not in one cannot be.
-fn file(model: &Model) -> Result<PathBuf, String> {
-    let opened = model.opened.as_ref().ok_or("nothing is open")?;
-    let saved = opened.path.clone().filter(|_| model.recorder.is_none());
-    saved.ok_or_else(|| "a recording is compared as it is in its file: save it first".into())
 }
 
 /// Ends the comparison that is being made. Whether there was one.

@@ -1,9 +1,9 @@
-//! Copying: the rows of the focused pane that have to do with what is selected; or what is selected; or the chosen row.
+//! Copying: the rows of the focused pane that have to do with what is selected; or what is selected; or the chosen row. And the command for the whole screen.
 //!
 //! Rows are copied as they are searched, with tabs between their cells, and several of them with their heads, for a spreadsheet.
 
 use crate::tui::model::{Effect, Model};
-use crate::tui::panes;
+use crate::tui::{command, panes};
 
 pub(super) fn copy(model: &mut Model) {
     let pane = model.focus;
@@ -23,6 +23,17 @@ pub(super) fn copy(model: &mut Model) {
     };
     model.effects.push(Effect::Copy(text));
     model.say(format!("copied {what}"));
+}
+
+/// Copies the command that shows the same as this screen.
+pub(super) fn command(model: &mut Model) {
+    match command::whole(model) {
+        Ok(text) => {
+            model.say(format!("copied {text}"));
+            model.effects.push(Effect::Copy(text));
+        }
+        Err(why) => model.complain(format!("there is no command for this: {why}")),
+    }
 }
 
 fn rows(count: usize) -> String {

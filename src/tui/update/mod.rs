@@ -7,6 +7,7 @@ mod copy;
 mod focus;
 #[cfg(test)]
 pub(in crate::tui) mod kit;
+pub(in crate::tui) mod picture;
 pub(in crate::tui) mod popup;
 pub(in crate::tui) mod record;
 mod search;
@@ -24,13 +25,6 @@ use crate::tui::action::Action;
 use crate::tui::model::{Effect, Model, Pane};
 use crate::tui::popups::{Question, What};
 use crate::tui::worker::Ask;
-
-/// Asks for the picture that is wanted, if it is not the one that is there or was asked for.
-pub(in crate::tui) fn want_picture(model: &mut Model) {
-    let Some(shot) = model.picture.shot(model) else { return };
-    model.picture.asked = Some((model.place, shot.clone()));
-    model.ask(Ask::Shoot(Box::new(shot)));
-}
 
 /// Begins: with a recording, or with what could be opened.
 pub(in crate::tui) fn begin(model: &mut Model, recording: Option<PathBuf>) {
@@ -84,6 +78,7 @@ pub(in crate::tui) fn act(model: &mut Model, action: Action) {
         | A::FocusDifferences
         | A::Maximise => focus::act(model, action),
         A::Copy => copy::copy(model),
+        A::CopyCommand => copy::command(model),
         A::Search => popup::ask(model, Question::Search),
         A::NextMatch => search::step(model, true),
         A::PreviousMatch => search::step(model, false),
@@ -107,6 +102,27 @@ pub(in crate::tui) fn act(model: &mut Model, action: Action) {
         | A::Event
         | A::Drop
         | A::Save => record::act(model, action),
+        A::Wire
+        | A::Lines
+        | A::Tint
+        | A::Subject
+        | A::Split
+        | A::SplitLeft
+        | A::SplitRight
+        | A::OrbitLeft
+        | A::OrbitRight
+        | A::OrbitUp
+        | A::OrbitDown
+        | A::Nearer
+        | A::Farther
+        | A::ZoomIn
+        | A::ZoomOut
+        | A::PanLeft
+        | A::PanRight
+        | A::PanUp
+        | A::PanDown
+        | A::ResetView
+        | A::SaveFrame => picture::act(model, action),
         A::Suspend => model.effects.push(Effect::Suspend),
         A::Redraw => model.effects.push(Effect::Redraw),
         A::Stops => popup::choose(model, What::Stops),
@@ -115,6 +131,5 @@ pub(in crate::tui) fn act(model: &mut Model, action: Action) {
         A::Palette => popup::choose(model, What::Palette),
         A::Quit => popup::quit(model),
         A::Leave => model.done = true,
-        other => model.complain(format!("{} is not there yet", other.row().name)),
     }
 }

@@ -4,12 +4,14 @@ use std::path::{Path, PathBuf};
 
 use ratatui::layout::Position;
 
+use super::popup;
 use crate::assets;
 use crate::recording::{AnyRecording, SceneRef, VIEWPORT};
 use crate::replay::{self, Input};
 use crate::report::{EventReport, Outcome};
 use crate::tui::action::Action;
 use crate::tui::model::{Model, Pane, Place, Timing};
+use crate::tui::popups::Question;
 use crate::tui::record::{self, Draft, Kept, Recorder, cross};
 use crate::tui::shot::Subject;
 use crate::tui::worker::{Ask, Hand, Recorded};
@@ -31,7 +33,11 @@ pub(super) fn act(model: &mut Model, action: Action) {
         Action::Undo => hand(model, Hand::Other(Input::Undo)),
         Action::Redo => hand(model, Hand::Other(Input::Redo)),
         Action::Drop => drop_last(model),
-        other => model.complain(format!("{} is not there yet", other.row().name)),
+        Action::Checkpoint => popup::confirm(model, Question::Checkpoint, &free_name(model)),
+        Action::Event => popup::ask(model, Question::Event),
+        Action::Save if model.opened.is_none() => model.complain("nothing is open that could be saved"),
+        Action::Save => popup::confirm(model, Question::Save, &file(model)),
+        _ => popup::ask(model, Question::Scene),
     }
 }
 
@@ -40,6 +46,7 @@ fn go_on(model: &mut Model) {
     let events = model.place.events;
     let dropped = model.len() - events;
     let viewport = model.opened.as_ref().map_or(VIEWPORT, |opened| opened.viewport);
+    super::compare::cancel(model);
     change(model, Recorded { kept: events, unsaved: model.kept.unsaved, ..Recorded::default() });
     start(model, Recorder::new(viewport, events));
     model.ask(Ask::GoOn(events));
@@ -176,7 +183,7 @@ fn names(model: &Model) -> impl Iterator<Item = &str> {
 }
 
 /// A name that no checkpoint has.
-pub(in crate::tui) fn free_name(model: &Model) -> String {
+fn free_name(model: &Model) -> String {
     let is_free = |name: &String| !names(model).any(|taken| taken == name);
     (1..).map(|number| format!("checkpoint-{number}")).find(is_free).unwrap_or_default()
 }
@@ -187,13 +194,13 @@ pub(in crate::tui) fn save(model: &mut Model, text: &str) -> Result<(), String> 
     if model.opened.is_none() {
         return Err("no recording is open".into());
     }
+    if assets::is_folder(&path) {
+        return Err(format!("{}: is a folder", path.display()));
+    }
     if path.extension().is_none() && path.file_name().is_some() {
         path.set_extension("lancet");
     }
     replay::require_form(&path).map_err(|error| error.to_string())?;
-    if assets::is_folder(&path) {
-        return Err(format!("{}: is a folder", path.display()));
-    }
     let Kept { saved, refused, .. } = &mut model.kept;
     if assets::is_file(&path) && saved.as_ref() != Some(&path) && refused.as_ref() != Some(&path) {
         *refused = Some(path.clone());
@@ -205,7 +212,7 @@ pub(in crate::tui) fn save(model: &mut Model, text: &str) -> Result<(), String> 
 }
 
 /// The file that it is saved to unless another is named.
-pub(in crate::tui) fn file(model: &Model) -> String {
+fn file(model: &Model) -> String {
     model.kept.saved.as_deref().map_or_else(String::new, |path: &Path| path.display().to_string())
 }
 
@@ -265,9 +272,17 @@ pub(super) fn opened(model: &mut Model, before: Kept) {
     }
 }
 
+/// What was open is closed. What was recorded is among the drafts.
+pub(super) fn broken(model: &mut Model) {
+    model.recorder = None;
+    model.kept.unsaved = false;
+    model.ask(Ask::Drafts);
+}
+
 /// There are recordings that were not saved, or not.
 pub(super) fn drafts(model: &mut Model, drafts: Vec<Draft>) {
     match drafts.len() {
+        _ if model.message.is_some() => {}
         0 => {}
         1 => model.say("a recording of before was not saved: ctrl-o opens it"),
         count => model.say(format!("{count} recordings of before were not saved: ctrl-o opens them")),

@@ -1,6 +1,6 @@
 //! What the worker tells.
 
-use super::{record, stops};
+use super::{picture, record, stops};
 use crate::tui::action::Action;
 use crate::tui::model::{Model, Place, Progress};
 use crate::tui::popups::{Menu, Popup, What};
@@ -22,7 +22,10 @@ pub(in crate::tui) fn told(model: &mut Model, told: Told) {
             model.standing = Some(*standing);
             record::stood(model);
         }
-        Told::Recorded(recorded) => record::recorded(model, *recorded),
+        Told::Recorded(recorded) => {
+            model.picture.forget();
+            record::recorded(model, *recorded);
+        }
         Told::Saved(path) => {
             record::saved(model, path);
             model.done |= model.leaving;
@@ -30,7 +33,12 @@ pub(in crate::tui) fn told(model: &mut Model, told: Told) {
         Told::Drafts(drafts) => record::drafts(model, drafts),
         Told::Progress { what, done, of } => model.progress = Some(Progress { what, done, of }),
         Told::Idle { urgent } => idle(model, urgent),
-        Told::Picture(picture) => model.picture.got = Some(*picture),
+        Told::Picture(picture) => model.picture.take(*picture),
+        Told::NoPicture { number, why } => model.picture.miss(number, why),
+        Told::Identified(face) => picture::identified(model, face),
+        Told::PictureSaved { path, size: [width, height] } => {
+            model.say(format!("written to {}, {width} x {height}", path.display()));
+        }
         Told::Checked(state) => {
             let broken = state.checks.iter().filter(|check| !check.ok).count();
             let all = state.checks.len();
@@ -65,22 +73,35 @@ fn played(model: &mut Model) {
 
 /// What ran stays on the screen; nothing further can be asked about it.
 fn broken(model: &mut Model, why: &str) {
-    (model.standing, model.playing, model.wanted, model.recorder) = (None, None, None, None);
+    (model.standing, model.playing, model.wanted) = (None, None, None);
+    model.picture.forget();
     model.complain(format!("a bug of lancet's: panicked: {why}; open the recording again to go on"));
+    record::broken(model);
 }
 
 fn open(model: &mut Model, opened: Opened) {
     let comparisons = super::compare::end(model);
-    let Model { size, focus, maximised, pace, stops, popup, memory, effects, asked, answered, kept, .. } =
-        std::mem::take(model);
-    let stays =
-        Model { size, focus, maximised, pace, stops, memory, effects, asked, answered, ..Model::default() };
+    let old = std::mem::take(model);
     // What was asked about what is gone is gone, too.
-    let stays_open = |popup: &Popup| {
+    let stays = |popup: &Popup| {
         matches!(popup, Popup::Menu(Menu { what: What::Help | What::Palette | What::Stops, .. }))
     };
-    let popup = popup.filter(stays_open);
-    *model = Model { opened: Some(opened), popup, ..stays };
+    let (popup, kept) = (old.popup.filter(stays), old.kept);
+    *model = Model {
+        opened: Some(opened),
+        popup,
+        size: old.size,
+        focus: old.focus,
+        maximised: old.maximised,
+        pace: old.pace,
+        stops: old.stops,
+        memory: old.memory,
+        picture: old.picture.anew(),
+        effects: old.effects,
+        asked: old.asked,
+        answered: old.answered,
+        ..Model::default()
+    };
     model.ask(Ask::Learn);
     record::opened(model, kept);
     super::compare::begin_first(model, comparisons);

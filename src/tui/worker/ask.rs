@@ -4,12 +4,13 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::canvas::frame::Orbit;
+use crate::canvas::image::Image;
 use crate::replay::Input;
 use crate::report::{EventReport, Finding, StateReport, Stop};
 use crate::tui::compare::{Differences, Job};
 use crate::tui::model::Place;
 use crate::tui::record::Draft;
-use crate::tui::shot::{Picture, Shot};
+use crate::tui::shot::{Picture, Shot, Sight};
 
 /// Something to do.
 #[derive(Clone, Debug)]
@@ -29,6 +30,22 @@ pub(in crate::tui) enum Ask {
     Learn,
     /// Take a picture of where the worker is. Only the newest is taken.
     Shoot(Box<Shot>),
+    /// Tell which face is seen at a place of a picture.
+    Identify {
+        /** Where it was taken. */
+        place: Place,
+        /** What lies where in it. */
+        sight: Sight,
+        /** The place, in shares of its width and height. */
+        at: [f64; 2],
+    },
+    /// Write a picture to a file.
+    SavePicture {
+        /** The file. */
+        path: PathBuf,
+        /** The picture. */
+        what: Frame,
+    },
     /// Look at the invariants of the whole state, as it is now.
     Check,
     /// Begin a recording.
@@ -56,6 +73,15 @@ pub(in crate::tui) enum Ask {
     Cancel,
 }
 
+/// A picture to write.
+#[derive(Clone, Debug)]
+pub(in crate::tui) enum Frame {
+    /// One that is still to be taken.
+    Shot(Box<Shot>),
+    /// One that is there.
+    Image(Arc<Image>),
+}
+
 /// Something to record. What it is depends on the state that it is done to, which the worker knows.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::tui) enum Hand {
@@ -75,13 +101,21 @@ pub(in crate::tui) enum Hand {
 impl Ask {
     /// Whether it comes before pictures, and before what nobody waits for.
     pub(in crate::tui) fn is_urgent(&self) -> bool {
-        let quiet = matches!(self, Self::Shoot(_) | Self::Learn | Self::Drafts);
+        let quiet = matches!(self, Self::Shoot(_) | Self::Learn);
         !quiet && !matches!(self, Self::Compare(_) | Self::StopComparing)
+    }
+
+    /// Whether it leaves the state as it is.
+    pub(in crate::tui) fn keeps_the_state(&self) -> bool {
+        let looks = matches!(self, Self::Shoot(_) | Self::Identify { .. } | Self::SavePicture { .. });
+        let tells = matches!(self, Self::Check | Self::Learn | Self::Save(_) | Self::Drafts | Self::Cancel);
+        looks || tells || matches!(self, Self::Compare(_) | Self::StopComparing)
     }
 
     /// Whether it puts an end to what is being done.
     pub(in crate::tui) fn interrupts(&self) -> bool {
-        self.is_urgent() && !matches!(self, Self::Check)
+        let looks = matches!(self, Self::Check | Self::Identify { .. } | Self::SavePicture { .. });
+        self.is_urgent() && !looks && !matches!(self, Self::Drafts)
     }
 }
 
@@ -94,8 +128,6 @@ pub(in crate::tui) struct Opened {
     pub(in crate::tui) engine: String,
     /// The engine's stages: short name and title.
     pub(in crate::tui) stages: Vec<(String, String)>,
-    /// The modes that can be chosen by hand.
-    pub(in crate::tui) modes: Vec<String>,
     /// The events as they stand in a script.
     pub(in crate::tui) lines: Vec<String>,
     /// What it was recorded on.
@@ -135,6 +167,22 @@ pub(in crate::tui) enum Told {
     },
     /// The picture that was asked for.
     Picture(Box<Picture>),
+    /// The picture of this number cannot be had, and why.
+    NoPicture {
+        /** The number. */
+        number: u64,
+        /** Why. */
+        why: String,
+    },
+    /// The face that was asked for, if there is one.
+    Identified(Option<String>),
+    /// A picture was written to a file.
+    PictureSaved {
+        /** The file. */
+        path: PathBuf,
+        /** Width and height. */
+        size: [u32; 2],
+    },
     /// The invariants of the whole state.
     Checked(Box<StateReport>),
     /// What is recorded, up to which event it is as before, and what comes after that.

@@ -78,19 +78,19 @@ impl Open {
             }
         }
         let lines = self.case.recording.event_lines().split_off(kept);
-        self.changed(Recorded { kept, lines, pointed, ..Recorded::default() }, drafts, line);
+        let drafted = self.changed(Recorded { kept, lines, pointed, ..Recorded::default() }, drafts, line);
         self.run_out(line);
         self.stand(line);
-        Ok(())
+        drafted
     }
 
     /// Drops the last event.
     pub(super) fn drop_last(&mut self, drafts: &Drafts, line: &mut dyn Line) -> Result<(), String> {
         let kept = self.replay.len().checked_sub(1).ok_or("there is no event to drop")?;
         self.cut_off(kept, line);
-        self.changed(Recorded { kept, ..Recorded::default() }, drafts, line);
+        let drafted = self.changed(Recorded { kept, ..Recorded::default() }, drafts, line);
         self.stand(line);
-        Ok(())
+        drafted
     }
 
     /// Saves it. From then on it is that file's.
@@ -155,8 +155,8 @@ impl Open {
         self.place = Place::after(end);
     }
 
-    /// Tells of a change, and keeps the recording as a draft.
-    fn changed(&mut self, recorded: Recorded, drafts: &Drafts, line: &mut dyn Line) {
+    /// Tells of a change, and keeps the recording as a draft. An error says that it is not kept, which stops nothing.
+    fn changed(&mut self, recorded: Recorded, drafts: &Drafts, line: &mut dyn Line) -> Result<(), String> {
         let making = self.making.get_or_insert_default();
         let left = recorded.kept + recorded.lines.len();
         making.copied = making.copied.min(recorded.kept);
@@ -166,7 +166,6 @@ impl Open {
         line.tell(Told::Recorded(Box::new(Recorded { unsaved: making.unsaved, ..recorded })));
         let Open { making, case, .. } = self;
         let slot = &mut making.get_or_insert_default().slot;
-        let kept = if nothing_new { slot.clear() } else { drafts.write(slot, &case.recording, &case.folder) };
-        kept.unwrap_or_else(|why| line.tell(Told::Failed(why)));
+        if nothing_new { slot.clear() } else { drafts.write(slot, &case.recording, &case.folder) }
     }
 }

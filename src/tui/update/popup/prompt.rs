@@ -6,7 +6,7 @@ use crate::tui::edit::Typed;
 use crate::tui::key::Key;
 use crate::tui::model::{Model, ran};
 use crate::tui::popups::{Prompt, Question};
-use crate::tui::update::{compare, record, search, step, stops};
+use crate::tui::update::{compare, picture, record, search, step, stops};
 
 /// Does what was answered; an error says what is wrong with the answer.
 fn answer(model: &mut Model, question: Question, text: &str) -> Result<(), String> {
@@ -17,9 +17,9 @@ fn answer(model: &mut Model, question: Question, text: &str) -> Result<(), Strin
         Question::Checkpoint => record::checkpoint(model, text),
         Question::Event => record::event(model, text),
         Question::Save => record::save(model, text),
+        Question::SavePicture => picture::save(model, text),
         Question::Scene => record::begin(model, text),
         Question::CompareWith => compare::with(model, text),
-        other => Err(format!("{other:?} is not there yet")),
     }
 }
 
