@@ -123,7 +123,7 @@ mod tests {
         assert_eq!(order("p", &names)[..3], ["pan-left", "previous-cut", "palette"]);
         assert_eq!(order("cop", &names), ["copy", "compare"]);
         assert_eq!(order("pc", &names), ["previous-cut"]);
-        assert_eq!(order("pt", &names), ["pan-left", "palette", "previous-cut", "checkpoint"]);
+        assert_eq!(order("pt", &names), ["pan-left", "previous-cut", "palette", "checkpoint"]);
     }
 
     #[test]

@@ -120,7 +120,7 @@ fn on_a_small_screen_a_popup_still_shows_what_it_is_for() {
         ("help", "Step one event on"),
         ("palette", "next-event"),
         ("breakpoints", "sorts=x"),
-        ("open", "builtin:bust"),
+        ("open", "recordings/"),
         ("go-to", "such as 12"),
         ("Stop", "rejected=miss"),
         ("leave", "leave it as a draft"),
@@ -172,7 +172,7 @@ fn the_palette_does_what_was_found_and_offers_it_first_the_next_time() {
     assert_eq!(model.memory.actions()[0], Action::FocusChecks, "the first row was the last action");
     let order: Vec<&str> = actions(&Default::default(), "ne").iter().take(2).map(|e| e.row.name).collect();
     assert_eq!(order, ["next-event", "next-stage"], "names that begin so come first");
-    assert_eq!(actions(&Default::default(), "invariants")[0].row.name, "focus-checks");
+    assert_eq!(actions(&Default::default(), "broken inv")[0].row.name, "first-finding", "by what it does");
 }
 
 #[test]
