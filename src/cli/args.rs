@@ -174,6 +174,9 @@ pub(super) struct Replay {
     /// Digest and check the whole state after every event
     #[arg(long)]
     pub(super) paranoid: bool,
+    /// Make the pixels too, and look at their invariants, as `verify` does, and `tui`; where a picture is asked for they are made anyway
+    #[arg(long = "pixels")]
+    pub(super) makes_pixels: bool,
     /// Write the report as JSON
     #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
     pub(super) json: Option<Target>,
@@ -216,6 +219,23 @@ pub(super) struct Viewpoint {
     pub(super) distance: Option<f64>,
 }
 
+/// How pictures reach a terminal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum ImageProtocol {
+    /// By whatever the terminal is known to have
+    Auto,
+    /// By Kitty's graphics
+    Kitty,
+    /// As sixels
+    Sixel,
+    /// As iTerm2's inline images
+    Iterm2,
+    /// In characters of two colours, which every terminal shows
+    Halfblocks,
+    /// Not at all
+    None,
+}
+
 /// What a screen lies on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Ground {
@@ -227,6 +247,7 @@ pub(super) enum Ground {
 
 /// Step through a recording in the terminal, and record new ones
 #[derive(Debug, clap::Args)]
+#[cfg_attr(feature = "tui", command(after_help = settings()))]
 pub(super) struct Tui {
     /// The recording
     #[arg(value_name = "REC", value_hint = ValueHint::FilePath)]
@@ -255,9 +276,19 @@ pub(super) struct Tui {
     /// The screen's columns and rows
     #[arg(long, value_name = "CxR", requires = "screen", default_value = "120x40")]
     pub(super) size: Size,
+    /// How pictures reach the terminal [default: the settings', or what the terminal is known to have]
+    #[arg(long, value_enum, value_name = "HOW")]
+    pub(super) image_protocol: Option<ImageProtocol>,
     /// Colours for a dark ground, or for a light one [default: the settings', or the terminal's]
     #[arg(long, value_enum, value_name = "GROUND")]
     pub(super) theme: Option<Ground>,
+}
+
+/// What can be set, in the help.
+#[cfg(feature = "tui")]
+fn settings() -> String {
+    let example: String = crate::tui::config::EXAMPLE.lines().map(|line| format!("  {line}\n")).collect();
+    format!("Settings:\n{example}\n`?` in the terminal shows every action with its keys and its name.")
 }
 
 /// A map to write.

@@ -14,9 +14,9 @@ type Replayed = Box<dyn replay::Replay>;
 pub(super) fn run(typed: &Replay, console: &mut Console<'_>) -> Done {
     require_possible(typed)?;
     let case = Case::open(&typed.recording)?;
-    let studio = match typed.frame {
-        Some(_) => Some(pixels::studio(typed.pixels.renderer, console)?),
-        None => None,
+    let studio = match makes_pixels(typed) {
+        true => Some(pixels::studio(typed.pixels.renderer, console)?),
+        false => None,
     };
     let (mut reports, mut last) = (Vec::new(), None);
     for _ in 0..typed.repeat {
@@ -35,6 +35,10 @@ pub(super) fn run(typed: &Replay, console: &mut Console<'_>) -> Done {
         console.err.note("the runs differ from one another: that is a bug of lancet's");
     }
     Ok(if same && report.totals.findings == 0 { Status::Verified } else { Status::Diverged })
+}
+
+fn makes_pixels(typed: &Replay) -> bool {
+    typed.makes_pixels || typed.frame.is_some()
 }
 
 /// What cannot be meant is refused before anything is replayed.
@@ -56,7 +60,7 @@ fn once(
     studio: Option<&dyn Studio>,
     console: &mut Console<'_>,
 ) -> Result<(Replayed, RunReport), Failure> {
-    let (everything, pictures) = (typed.pixels.no_skip, typed.frame.is_some());
+    let (everything, pictures) = (typed.pixels.no_skip, makes_pixels(typed));
     let options = Options { paranoid: typed.paranoid, everything, pictures, ..Options::default() };
     let mut replay = case.replay(&case.recording, options, studio)?;
     require_there(typed, replay.as_ref())?;

@@ -6,19 +6,29 @@ use super::{Console, Done, Status};
 
 #[cfg(feature = "tui")]
 pub(super) fn run(typed: &Tui, console: &mut Console<'_>) -> Done {
-    use super::args::Ground;
+    use super::args::{Ground, ImageProtocol as Asked};
     use super::pixels;
     use crate::tui::config::Config;
+    use crate::tui::image::protocol::ImageProtocol;
     use crate::tui::terminal::Terminal;
     use crate::tui::theme::Base;
     use crate::tui::{self, Drafts, Start};
 
-    let mut config = Config::load(typed.config.as_deref(), &tui::action_names()).map_err(Failure::new)?;
+    let mut config = Config::load(typed.config.as_deref(), &tui::actions()).map_err(Failure::new)?;
     let base = typed.theme.map(|ground| match ground {
         Ground::Dark => Base::Dark,
         Ground::Light => Base::Light,
     });
     config.theme.base = base.or(config.theme.base);
+    let protocol = typed.image_protocol.map(|asked| match asked {
+        Asked::Auto => ImageProtocol::Auto,
+        Asked::Kitty => ImageProtocol::Kitty,
+        Asked::Sixel => ImageProtocol::Sixel,
+        Asked::Iterm2 => ImageProtocol::Iterm2,
+        Asked::Halfblocks => ImageProtocol::Halfblocks,
+        Asked::None => ImageProtocol::None,
+    });
+    config.image_protocol = protocol.unwrap_or(config.image_protocol);
     let start = Start {
         recording: typed.recording.clone(),
         renderer: pixels::choice(typed.renderer),

@@ -181,6 +181,14 @@ impl Overlay {
         }
     }
 
+    /// Whether there is nothing to draw.
+    pub fn is_empty(&self) -> bool {
+        match self {
+            Self::Points { points, .. } | Self::Line { points, .. } => points.is_empty(),
+            Self::Faces { faces, .. } => faces.is_empty(),
+        }
+    }
+
     /// What it is shown together with: the word before the first space of its name.
     pub fn group(&self) -> &str {
         self.name().split(' ').next().unwrap_or_default()

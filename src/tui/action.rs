@@ -117,6 +117,7 @@ pub(in crate::tui) enum Scope {
 }
 
 /// A row of the table.
+#[derive(Debug, PartialEq, Eq)]
 pub(in crate::tui) struct Row {
     /// What is done.
     pub(in crate::tui) action: Action,
@@ -149,26 +150,26 @@ macro_rules! actions {
 
 /// All of them, in the order of the help.
 pub(in crate::tui) const ACTIONS: &[Row] = actions! {
-    NextEvent "next-event" Always ["l", "right"] "Step one event on" => "replay {rec} --until {place} --json -";
-    PreviousEvent "previous-event" Always ["h", "left"] "Step one event back" => "replay {rec} --until {place} --json -";
-    NextStage "next-stage" Always ["s", "shift-right"] "Step one stage on" => "replay {rec} --until {place} --json -";
-    PreviousStage "previous-stage" Always ["S", "shift-left"] "Step one stage back" => "replay {rec} --until {place} --json -";
-    NextCut "next-cut" Always ["c"] "Go to the next cut" => "replay {rec} --until {place} --json -";
-    PreviousCut "previous-cut" Always ["C"] "Go to the cut before" => "replay {rec} --until {place} --json -";
-    NextCheckpoint "next-checkpoint" Always ["]"] "Go to the next checkpoint" => "replay {rec} --until {place} --json -";
-    PreviousCheckpoint "previous-checkpoint" Always ["["] "Go to the checkpoint before" => "replay {rec} --until {place} --json -";
-    First "first" Always ["home"] "Go to before the first event" => "replay {rec} --until {place} --json -";
-    Last "last" Always ["end"] "Go to after the last event" => "replay {rec} --json -";
-    GoTo "go-to" Always ["#"] "Go to an event by its number, or to a stage of it, such as 4.2" => "replay {rec} --until {place} --json -";
-    FirstFinding "first-finding" Always ["f"] "Go to the first broken invariant" => "replay {rec} --stop-at finding --json -";
+    NextEvent "next-event" Always ["l", "right"] "Step one event on" => "replay {rec} --until {place} --pixels --json -";
+    PreviousEvent "previous-event" Always ["h", "left"] "Step one event back" => "replay {rec} --until {place} --pixels --json -";
+    NextStage "next-stage" Always ["s", "shift-right"] "Step one stage on" => "replay {rec} --until {place} --pixels --json -";
+    PreviousStage "previous-stage" Always ["S", "shift-left"] "Step one stage back" => "replay {rec} --until {place} --pixels --json -";
+    NextCut "next-cut" Always ["c"] "Go to the next cut" => "replay {rec} --until {place} --pixels --json -";
+    PreviousCut "previous-cut" Always ["C"] "Go to the cut before" => "replay {rec} --until {place} --pixels --json -";
+    NextCheckpoint "next-checkpoint" Always ["]"] "Go to the next checkpoint" => "replay {rec} --until {place} --pixels --json -";
+    PreviousCheckpoint "previous-checkpoint" Always ["["] "Go to the checkpoint before" => "replay {rec} --until {place} --pixels --json -";
+    First "first" Always ["home"] "Go to before the first event" => "replay {rec} --until {place} --pixels --json -";
+    Last "last" Always ["end"] "Go to after the last event" => "replay {rec} --pixels --json -";
+    GoTo "go-to" Always ["#"] "Go to an event by its number, or to a stage of it, such as 4.2" => "replay {rec} --until {place} --pixels --json -";
+    FirstFinding "first-finding" Always ["f"] "Go to the first broken invariant" => "replay {rec} --stop-at finding --pixels --json -";
     NextDivergence "next-divergence" Always ["d"] "Go to the next divergence from what it is compared with" => "{compare} --json -";
-    Play "play" Always ["space"] "Play on at a pace, or pause" => "replay {rec} --json -";
+    Play "play" Always ["space"] "Play on at a pace, or pause" => "replay {rec} --pixels --json -";
     Faster "faster" Always [">"] "Play faster";
     Slower "slower" Always ["<"] "Play slower";
-    RunOn "run-on" Always ["R"] "Run on to where one of the breakpoints holds, or to the end" => "replay {rec} {stops} --json -";
-    Stops "breakpoints" Always ["b"] "Set, look at and drop breakpoints" => "replay {rec} {stops} --json -";
+    RunOn "run-on" Always ["R"] "Run on to where one of the breakpoints holds, or to the end" => "replay {rec} {stops} --pixels --json -";
+    Stops "breakpoints" Always ["b"] "Set, look at and drop breakpoints" => "replay {rec} {stops} --pixels --json -";
     Cancel "cancel" Always ["esc"] "Stop what is going on; close what is open";
-    Check "check" Always ["v"] "Look at the invariants of the whole state, here" => "replay {rec} --until {place} --paranoid --json -";
+    Check "check" Always ["v"] "Look at the invariants of the whole state, here" => "replay {rec} --until {place} --paranoid --pixels --json -";
     Compare "compare" Always ["="] "Compare the run with its goldens" => "verify {rec} --json -";
     CompareWith "compare-with" Always ["+"] "Compare the run with another run's JSON" => "diff {json} {rec} --json -";
     Up "up" List ["k", "up"] "Go one row up";
@@ -179,9 +180,9 @@ pub(in crate::tui) const ACTIONS: &[Row] = actions! {
     Bottom "bottom" List ["G"] "Go to the last row";
     Select "select" List ["enter"] "Select what the row is about, everywhere" => "replay {rec} --until {place} --frame {png} {select}";
     SelectNothing "select-nothing" Always ["x"] "Select nothing";
-    Copy "copy" Always ["y"] "Copy what is selected" => "replay {rec} --until {place} --json -";
+    Copy "copy" Always ["y"] "Copy what is selected" => "replay {rec} --until {place} --pixels --json -";
     CopyCommand "copy-command" Always ["Y"] "Copy the command that shows the same as this screen" => "replay {rec} --until {place} --json - --frame {png} {shown}";
-    NextTable "next-table" Always ["t"] "Show the next table" => "replay {rec} --until {place} --json -";
+    NextTable "next-table" Always ["t"] "Show the next table" => "replay {rec} --until {place} --pixels --json -";
     FocusNext "focus-next" Always ["tab"] "Go to the next pane";
     FocusPrevious "focus-previous" Always ["shift-tab"] "Go to the pane before";
     FocusTimeline "focus-timeline" Always ["1"] "Go to the timeline";
@@ -234,7 +235,7 @@ pub(in crate::tui) const ACTIONS: &[Row] = actions! {
     Open "open" Always ["ctrl-o"] "Open a recording" => "info {rec} --json -";
     Help "help" Always ["?", "f1"] "Show all keys";
     Palette "palette" Always [":"] "Find an action by its name";
-    Search "search" Always ["/"] "Search the timeline and the tables" => "replay {rec} --json -";
+    Search "search" Always ["/"] "Search the timeline and the tables" => "replay {rec} --pixels --json -";
     NextMatch "next-match" Always ["n"] "Go to the next match";
     PreviousMatch "previous-match" Always ["N"] "Go to the match before";
     Suspend "suspend" Always ["ctrl-z"] "Go to the background";

@@ -22,7 +22,6 @@ use crate::tui::action::{Action, Row};
 use crate::tui::compare::With;
 use crate::tui::model::{Model, Pane, Place};
 use crate::tui::shot::{Subject, Tint};
-use crate::tui::worker::groups;
 
 /// The command of an action, with what is on the screen filled in; none of what only moves about on it.
 pub(in crate::tui) fn of(model: &Model, row: &Row) -> Option<String> {
@@ -134,9 +133,7 @@ fn tint(model: &Model) -> Vec<String> {
     match &model.picture.drawn.tint {
         Tint::None => Vec::new(),
         Tint::Charts => vec!["charts".into()],
-        Tint::Group(at) => {
-            groups(overlays(model)).get(*at).map(|group| (*group).to_owned()).into_iter().collect()
-        }
+        Tint::Group(group) => vec![group.clone()],
     }
 }
 

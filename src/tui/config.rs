@@ -1,23 +1,8 @@
-//! The user's settings: `lancet/config.toml` in the config folder of the system (`~/.config` on Linux), or a file named by a flag.
-//!
-//! ```toml
-//! mouse = true                 # false leaves the mouse to the terminal, which then selects text
-//! image-protocol = "auto"      # kitty, sixel, iterm2, halfblocks
-//!
-//! [theme]
-//! base = "auto"                # dark, light
-//! accent = "#56b4e9"           # a role's colour,
-//! selected = "bold white on blue"      # or its whole style
-//!
-//! [keys]
-//! quit = ["q", "ctrl-c"]       # these keys and no others
-//! search = "/"
-//! palette = []                 # no key at all
-//! ```
+//! The user's settings: `lancet/config.toml` in the config folder of the system (`~/.config` on Linux), or a file named by a flag; [`EXAMPLE`] is one.
 //!
 //! No file is no setting. A wrong one is refused as a whole, with file, line, column and cause: a setting that is silently
-//! passed over would look like one that does not work. Which actions there are is passed in, and whether two of them can have
-//! one key is for those who know where each applies.
+//! passed over would look like one that does not work. Which actions there are is passed in, with where their keys count: there no two
+//! can be given the same one. One that was another action's by default is that one's no longer.
 
 use std::fmt;
 use std::ops::Range;
@@ -27,9 +12,25 @@ use etcetera::BaseStrategy as _;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::image::protocol::ImageProtocol;
 use super::key::Key;
 use super::theme::{self, Base, Choice, Role};
 use crate::assets::{self, AssetError};
+
+/// Every kind of setting.
+pub const EXAMPLE: &str = r##"mouse = true                 # false leaves the mouse to the terminal, which then selects text
+image-protocol = "auto"      # kitty, sixel, iterm2, halfblocks
+
+[theme]
+base = "auto"                # dark, light
+accent = "#56b4e9"           # a role's colour,
+selected = "bold white on blue"      # or its whole style
+
+[keys]
+quit = ["q", "ctrl-x"]       # these keys and no others
+search = "/"
+palette = []                 # no key at all
+"##;
 
 /// The user's settings.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,31 +51,13 @@ impl Default for Config {
     }
 }
 
-/// How pictures are shown.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum ImageProtocol {
-    /// What the terminal answers that it knows.
-    #[default]
-    Auto,
-    /// Kitty's graphics.
-    Kitty,
-    /// Sixels.
-    Sixel,
-    /// iTerm2's inline images.
-    Iterm2,
-    /// Two coloured halves in each cell, which every terminal shows.
-    Halfblocks,
-}
-
-impl ImageProtocol {
-    /// Every protocol with its name.
-    pub const NAMES: [(&'static str, Self); 5] = [
-        ("auto", Self::Auto),
-        ("kitty", Self::Kitty),
-        ("sixel", Self::Sixel),
-        ("iterm2", Self::Iterm2),
-        ("halfblocks", Self::Halfblocks),
-    ];
+/// An action that can be given keys.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Known {
+    /// Its name.
+    pub name: &'static str,
+    /// Where its keys count: with those of the same number.
+    pub scope: usize,
 }
 
 /// What is wrong with a file of settings.
@@ -116,7 +99,7 @@ impl Config {
     }
 
     /// The settings of a file that was named, or else of the usual one, if it is there.
-    pub fn load(named: Option<&Path>, actions: &[&str]) -> Result<Self, ConfigError> {
+    pub fn load(named: Option<&Path>, actions: &[Known]) -> Result<Self, ConfigError> {
         let usual = || Self::usual_file().filter(|file| assets::is_file(file));
         let Some(file) = named.map(Path::to_path_buf).or_else(usual) else { return Ok(Self::default()) };
         let bytes = assets::read_file(&file).map_err(ConfigError::File)?;
@@ -124,7 +107,7 @@ impl Config {
     }
 
     /// Reads settings; the file's name is for errors.
-    pub fn parse(bytes: &[u8], file: &Path, actions: &[&str]) -> Result<Self, ConfigError> {
+    pub fn parse(bytes: &[u8], file: &Path, actions: &[Known]) -> Result<Self, ConfigError> {
         let (text, broken) = match std::str::from_utf8(bytes) {
             Ok(text) => (text, None),
             Err(error) => {
@@ -171,7 +154,7 @@ fn entries<'t, 'a>(table: &'t DeTable<'a>) -> Vec<(&'t str, Range<usize>, &'t Va
     entries
 }
 
-fn settings(text: &str, actions: &[&str]) -> Result<Config, Fault> {
+fn settings(text: &str, actions: &[Known]) -> Result<Config, Fault> {
     let table =
         DeTable::parse(text).map_err(|error| Fault::at(error.span().unwrap_or(0..0), error.message()))?;
     let mut config = Config::default();
@@ -180,7 +163,10 @@ fn settings(text: &str, actions: &[&str]) -> Result<Config, Fault> {
             "mouse" => {
                 config.mouse = value.get_ref().as_bool().ok_or_else(|| wants("true or false", value))?
             }
-            "image-protocol" => config.image_protocol = one_of(value, &ImageProtocol::NAMES)?,
+            "image-protocol" => {
+                let named = ImageProtocol::ALL.map(|protocol| (protocol.name(), protocol));
+                config.image_protocol = one_of(value, &named)?;
+            }
             "theme" => config.theme = choice(table_of(value)?)?,
             "keys" => config.keys = keys(table_of(value)?, actions)?,
             _ => return Err(unknown("setting", name, span, &["mouse", "image-protocol", "theme", "keys"])),
@@ -210,16 +196,43 @@ fn choice(table: &DeTable<'_>) -> Result<Choice, Fault> {
     Ok(choice)
 }
 
-fn keys(table: &DeTable<'_>, actions: &[&str]) -> Result<Vec<(String, Vec<Key>)>, Fault> {
-    let keys = entries(table).into_iter().map(|(name, span, value)| {
-        if !actions.contains(&name) {
-            return Err(unknown("action", name, span, actions));
-        }
+type Bindings = Vec<(String, Vec<Key>)>;
+
+fn keys(table: &DeTable<'_>, actions: &[Known]) -> Result<Bindings, Fault> {
+    let mut bound: Bindings = Vec::new();
+    for (name, span, value) in entries(table) {
+        let Some(action) = actions.iter().find(|action| action.name == name) else {
+            let names: Vec<&str> = actions.iter().map(|action| action.name).collect();
+            return Err(unknown("action", name, span, &names));
+        };
         let values = value.get_ref().as_array().map_or(std::slice::from_ref(value), |array| array.as_ref());
-        let keys: Result<_, _> = values.iter().map(key).collect();
-        Ok((name.to_owned(), keys?))
-    });
-    keys.collect()
+        let mut keys = Vec::new();
+        for value in values {
+            let key = key(value)?;
+            require_free(key, value, *action, &bound, actions)?;
+            keys.push(key);
+        }
+        bound.push((name.to_owned(), keys));
+    }
+    Ok(bound)
+}
+
+/// Refuses a key that another action of the same scope was given further above.
+fn require_free(
+    key: Key,
+    value: &Value<'_>,
+    action: Known,
+    bound: &Bindings,
+    actions: &[Known],
+) -> Result<(), Fault> {
+    let beside = |name: &str| actions.iter().any(|other| other.name == name && other.scope == action.scope);
+    match bound.iter().find(|(name, keys)| keys.contains(&key) && beside(name)) {
+        Some((other, _)) => Err(Fault::at(
+            value.span(),
+            format_args!("`{key}` cannot be a key of both `{other}` and `{}`", action.name),
+        )),
+        None => Ok(()),
+    }
 }
 
 fn key(value: &Value<'_>) -> Result<Key, Fault> {

@@ -8,7 +8,7 @@ use etcetera::BaseStrategy as _;
 
 use super::record::Drafts;
 
-/// The variables that decide how the screen looks; empty where unset.
+/// What the environment says of the terminal. A variable that is empty counts as unset.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Environment {
     /// `NO_COLOR` (no-color.org): anything but empty asks for no colour.
@@ -19,18 +19,35 @@ pub struct Environment {
     pub colorterm: String,
     /// `COLORFGBG`: the numbers of the text's and the background's colours, such as `15;0`.
     pub colorfgbg: String,
+    /// `TERM_PROGRAM`: the terminal's name, where it says it.
+    pub program: String,
+    /// Whether `KITTY_WINDOW_ID` is set.
+    pub kitty: bool,
+    /// Whether `WEZTERM_PANE` or `WEZTERM_EXECUTABLE` is set.
+    pub wezterm: bool,
+    /// Whether `TMUX`, `STY` or `ZELLIJ` is set: a multiplexer stands between.
+    pub multiplexer: bool,
 }
 
 impl Environment {
     /// The program's own.
     pub fn read() -> Self {
-        let read =
-            |name: &str| std::env::var_os(name).map_or_else(String::new, |v| v.to_string_lossy().into());
+        Self::of(|name| std::env::var_os(name).map(|value| value.to_string_lossy().into()))
+    }
+
+    /// What variables tell, by whoever can read them.
+    pub fn of(read: impl Fn(&str) -> Option<String>) -> Self {
+        let text = |name: &str| read(name).unwrap_or_default();
+        let any = |names: &[&str]| names.iter().any(|name| !text(name).is_empty());
         Self {
-            no_color: read("NO_COLOR"),
-            term: read("TERM"),
-            colorterm: read("COLORTERM"),
-            colorfgbg: read("COLORFGBG"),
+            no_color: text("NO_COLOR"),
+            term: text("TERM"),
+            colorterm: text("COLORTERM"),
+            colorfgbg: text("COLORFGBG"),
+            program: text("TERM_PROGRAM"),
+            kitty: any(&["KITTY_WINDOW_ID"]),
+            wezterm: any(&["WEZTERM_PANE", "WEZTERM_EXECUTABLE"]),
+            multiplexer: any(&["TMUX", "STY", "ZELLIJ"]),
         }
     }
 

@@ -40,6 +40,10 @@ fn moved(model: &mut Model, event: MouseEvent) -> bool {
     if update::popup::mouse(model, event) {
         return true;
     }
+    // What is dragged goes on wherever the pointer gets to.
+    if model.picture.drag.is_some() {
+        return update::picture::mouse(model, event);
+    }
     let areas = view::areas(model);
     let Some(pane) = areas.at(event.column, event.row) else { return false };
     let at = Position { x: event.column, y: event.row };
@@ -48,7 +52,7 @@ fn moved(model: &mut Model, event: MouseEvent) -> bool {
             title(model, &areas, pane, at);
             true
         }
-        _ if pane == Pane::Picture => false,
+        _ if pane == Pane::Picture => update::picture::mouse(model, event),
         MouseEventKind::Down(MouseButton::Left) => {
             row(model, &areas, pane, at);
             true
@@ -109,3 +113,6 @@ fn pressed(model: &mut Model, keys: &Keys, key: Key) -> bool {
     action.into_iter().for_each(|action| update::act(model, action));
     action.is_some()
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::action::{ACTIONS, Action, Scope};
+use super::action::{ACTIONS, Action, Row, Scope};
 use super::key::Key;
 use super::model::{Model, Pane};
 
@@ -11,16 +11,19 @@ use super::model::{Model, Pane};
 pub(in crate::tui) struct Keys(BTreeMap<Action, Vec<Key>>);
 
 impl Keys {
-    /// The keys of the table, with others for the actions that are named in `changed`.
+    /// The keys of the table, with others for the actions that are named in `changed`. A key that is given to an action there is no longer that of
+    /// another one in the same scope.
     pub(in crate::tui) fn new(changed: &[(String, Vec<Key>)]) -> Self {
         let own = |name: &str| changed.iter().find(|(other, _)| other == name).map(|(_, keys)| keys.clone());
-        let usual = |keys: &[&str]| keys.iter().filter_map(|key| key.parse().ok()).collect();
-        Self(
-            ACTIONS
-                .iter()
-                .map(|row| (row.action, own(row.name).unwrap_or_else(|| usual(row.keys))))
-                .collect(),
-        )
+        let taken = |scope: Scope, key: &Key| {
+            let same = |name: &str| ACTIONS.iter().any(|row| row.name == name && row.scope == scope);
+            changed.iter().any(|(name, keys)| keys.contains(key) && same(name))
+        };
+        let usual = |row: &Row| {
+            let keys = row.keys.iter().filter_map(|key| key.parse().ok());
+            keys.filter(|key| !taken(row.scope, key)).collect()
+        };
+        Self(ACTIONS.iter().map(|row| (row.action, own(row.name).unwrap_or_else(|| usual(row)))).collect())
     }
 
     /// The first key of an action, for people.
@@ -77,5 +80,9 @@ mod tests {
         let own = Keys::new(&[("quit".into(), vec![key("ctrl-x")])]);
         assert_eq!(own.action(key("ctrl-x"), &model), Some(Action::Quit));
         assert_eq!(own.action(key("q"), &model), None);
+        let own = Keys::new(&[("quit".into(), vec![key("l")]), ("zoom-in".into(), vec![key("r")])]);
+        assert_eq!(own.action(key("l"), &model), Some(Action::Quit), "no longer a step");
+        assert_eq!(own.of(Action::NextEvent), [key("right")]);
+        assert_eq!(own.of(Action::Record), [key("r")], "another scope");
     }
 }

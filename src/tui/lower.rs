@@ -123,7 +123,7 @@ mod tests {
     fn the_users_wish_comes_before_what_the_terminal_says() {
         let depth = |no_color: &str, term: &str, colorterm: &str| {
             let [no_color, term, colorterm] = [no_color, term, colorterm].map(String::from);
-            Depth::of(&Environment { no_color, term, colorterm, colorfgbg: String::new() })
+            Depth::of(&Environment { no_color, term, colorterm, ..Environment::default() })
         };
         assert_eq!(depth("1", "xterm-256color", "truecolor"), Depth::None);
         assert_eq!(depth("", "xterm", "truecolor"), Depth::Full);

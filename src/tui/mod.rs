@@ -18,6 +18,7 @@ pub mod config;
 mod edit;
 pub mod environment;
 mod events;
+mod fuzzy;
 pub mod image;
 pub mod key;
 mod keys;
@@ -50,7 +51,7 @@ pub use record::Drafts;
 pub use run::{Start, run};
 pub use stage::Stage;
 
-/// The names of all actions, as the configuration gives them keys.
-pub fn action_names() -> Vec<&'static str> {
-    action::ACTIONS.iter().map(|row| row.name).collect()
+/// All actions, as the configuration gives them keys.
+pub fn actions() -> Vec<config::Known> {
+    action::ACTIONS.iter().map(|row| config::Known { name: row.name, scope: row.scope as usize }).collect()
 }

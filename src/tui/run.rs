@@ -13,13 +13,15 @@ use crossterm::event::Event;
 use super::compare::{Comparisons, With};
 use super::config::Config;
 use super::environment::Environment;
+use super::image::encoder::{Encoded, Encoder};
+use super::image::protocol::{ImageProtocol, Medium};
 use super::keys::Keys;
 use super::model::{Effect, Model};
 use super::record::Drafts;
 use super::terminal::{self, Terminal};
 use super::theme::Theme;
-use super::worker::{Ask, Desk, Told, Worker};
-use super::{events, update, view};
+use super::worker::{Desk, Told, Worker};
+use super::{events, picture, update, view};
 use crate::render::Choice;
 
 /// How the program was started.
@@ -43,6 +45,7 @@ pub struct Start {
 enum News {
     Typed(io::Result<Event>),
     Told(Told),
+    Encoded(Box<Result<Encoded, String>>),
 }
 
 /// How long what was recorded may take to be kept when all is over.
@@ -62,12 +65,20 @@ pub fn run(start: Start) -> io::Result<()> {
     turned
 }
 
+/// How pictures reach the terminal. Its cells may have another size than before.
+fn medium((asked, environment): &(ImageProtocol, Environment)) -> Medium {
+    Medium::choose(*asked, environment, crossterm::terminal::window_size().ok().as_ref())
+}
+
 struct App {
     model: Model,
     theme: Theme,
     keys: Keys,
     news: Receiver<News>,
     worker: Worker,
+    encoder: Encoder,
+    /// What pictures are shown by, and what decides it.
+    protocol: (ImageProtocol, Environment),
     terminal: Terminal,
     /// When the last event was played.
     beat: Instant,
@@ -77,31 +88,40 @@ struct App {
 
 impl App {
     fn new(start: Start) -> io::Result<Self> {
-        let theme = Theme::chosen(&start.config.theme, &Environment::read());
+        let environment = Environment::read();
+        let theme = Theme::chosen(&start.config.theme, &environment);
+        let protocol = (start.config.image_protocol, environment);
         let keys = Keys::new(&start.config.keys);
         let mut terminal = Terminal::take(start.config.mouse)?;
         let size = terminal.size()?;
         let comparisons = Comparisons::first(start.compare);
         let mut model = Model { size: [size.width, size.height], comparisons, ..Model::default() };
-        start.recording.into_iter().for_each(|path| model.ask(Ask::Open(path)));
-        model.ask(Ask::Drafts);
+        model.picture.medium = medium(&protocol);
+        update::begin(&mut model, start.recording);
         // The first frame comes before anything that takes time.
         terminal.draw(|frame| view::draw(&model, &theme, &keys, frame.buffer_mut()))?;
         let (send, news) = channel();
         let typed = send.clone();
         terminal::listen(move |event| typed.send(News::Typed(event)).is_ok())?;
         let (choice, budget, drafts) = (start.renderer, start.budget_bytes, start.drafts);
+        let made = send.clone();
+        let encoder = Encoder::start(move |encoded| drop(made.send(News::Encoded(Box::new(encoded)))))?;
         let worker = Worker::start(
             move || Desk::new(choice, budget).with_drafts(drafts.clone()),
             // A screen that is gone is noticed when the next thing to do is looked for.
             move |told| drop(send.send(News::Told(told))),
         )?;
-        Ok(Self { model, theme, keys, news, worker, terminal, beat: Instant::now(), changed: true })
+        let beat = Instant::now();
+        Ok(Self { model, theme, keys, news, worker, encoder, protocol, terminal, beat, changed: true })
     }
 
     fn turn(&mut self) -> io::Result<()> {
+        if self.terminal.lost() {
+            self.encoder.forget();
+            self.changed = true;
+        }
         self.carry_out()?;
-        if self.changed || self.terminal.lost() {
+        if self.changed {
             let Self { model, theme, keys, terminal, .. } = self;
             terminal.draw(|frame| view::draw(model, theme, keys, frame.buffer_mut()))?;
             self.changed = false;
@@ -126,7 +146,7 @@ impl App {
 
     /// Does what the model wants done outside.
     fn carry_out(&mut self) -> io::Result<()> {
-        update::want_picture(&mut self.model);
+        update::picture::want(&mut self.model);
         for effect in std::mem::take(&mut self.model.effects) {
             match effect {
                 Effect::Ask(ask) => self.worker.ask(ask),
@@ -134,10 +154,19 @@ impl App {
                     Ok(()) => {}
                     Err(error) => self.model.complain(format!("not copied: {error}")),
                 },
-                Effect::Suspend => self.terminal.suspend()?,
-                Effect::Redraw => self.terminal.redraw()?,
+                Effect::Suspend => {
+                    self.terminal.suspend()?;
+                    self.encoder.forget();
+                }
+                Effect::Redraw => {
+                    self.terminal.redraw()?;
+                    self.encoder.forget();
+                }
             }
             self.changed = true;
+        }
+        if let Some(request) = picture::request(&self.model) {
+            self.encoder.ask(request);
         }
         Ok(())
     }
@@ -159,7 +188,17 @@ impl App {
 
     fn take(&mut self, news: News) -> io::Result<()> {
         match news {
-            News::Typed(event) => self.changed |= events::take(&mut self.model, &self.keys, event?),
+            News::Typed(event) => {
+                let event = event?;
+                if matches!(event, Event::Resize(..)) {
+                    self.model.picture.medium = medium(&self.protocol);
+                }
+                self.changed |= events::take(&mut self.model, &self.keys, event);
+            }
+            News::Encoded(encoded) => {
+                update::picture::encoded(&mut self.model, *encoded);
+                self.changed = true;
+            }
             News::Told(told) => {
                 update::told(&mut self.model, told);
                 self.changed = true;

@@ -10,13 +10,14 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::compare::Comparisons;
+use super::image::encoder::encode;
 use super::key::Key;
 use super::keys::Keys;
 use super::model::{Effect, Model};
 use super::run::Start;
 use super::theme::Theme;
-use super::worker::{Ask, Desk, Line, Told};
-use super::{events, update, view};
+use super::worker::{Desk, Line, Told};
+use super::{events, picture, update, view};
 use crate::report::EventReport;
 
 /// Rounds of asking and telling after which nothing new can come of it.
@@ -41,8 +42,7 @@ impl Stage {
         let keys = Keys::new(&start.config.keys);
         let desk = Desk::new(start.renderer, start.budget_bytes).with_drafts(start.drafts.clone());
         let mut stage = Self { model, theme, keys, desk, steady, copied: Vec::new() };
-        start.recording.iter().for_each(|path| stage.model.ask(Ask::Open(path.clone())));
-        stage.model.ask(Ask::Drafts);
+        update::begin(&mut stage.model, start.recording.clone());
         stage.settle();
         stage
     }
@@ -89,14 +89,24 @@ impl Stage {
     /// Does what is asked, until nothing is.
     pub(in crate::tui) fn settle(&mut self) {
         for _ in 0..ROUNDS {
-            update::want_picture(&mut self.model);
+            update::picture::want(&mut self.model);
             let effects = std::mem::take(&mut self.model.effects);
-            if effects.is_empty() {
+            if effects.is_empty() && !self.show() {
                 return;
             }
             effects.into_iter().for_each(|effect| self.carry_out(effect));
         }
         debug_assert!(false, "one thing leads to another without end");
+    }
+
+    /// Makes the picture ready that is to be seen. Whether it is another.
+    fn show(&mut self) -> bool {
+        let Some(request) = picture::request(&self.model) else { return false };
+        let other = self.model.picture.encoded.as_ref().is_none_or(|encoded| !encoded.answers(&request));
+        if other {
+            update::picture::encoded(&mut self.model, encode(&request));
+        }
+        other && self.model.picture.encoded.is_some()
     }
 
     fn carry_out(&mut self, effect: Effect) {

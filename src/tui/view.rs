@@ -75,6 +75,13 @@ impl Areas {
         Some(Rect { x: area.x + side.min(area.width), width, height, ..*area })
     }
 
+    /// The border below a pane, if it has one.
+    pub(in crate::tui) fn foot(&self, pane: Pane) -> Option<Rect> {
+        let (_, area) = self.panes.iter().find(|(other, _)| *other == pane)?;
+        let has_any = self.borders(*area).contains(Borders::BOTTOM) && area.width > 2 && area.height > 1;
+        has_any.then(|| Rect { x: area.x + 1, y: area.bottom() - 1, width: area.width - 2, height: 1 })
+    }
+
     /// The panes that share the place of one, itself among them.
     pub(in crate::tui) fn sharing(&self, pane: Pane) -> &'static [Pane] {
         match self.room {
@@ -169,3 +176,6 @@ pub(in crate::tui) fn draw(model: &Model, theme: &Theme, keys: &Keys, buffer: &m
     popups::draw(model, theme, keys, buffer);
     theme.lower(buffer);
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,10 +2,12 @@
 #![cfg(all(unix, feature = "tui"))]
 
 mod pty;
+mod record;
 
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
+use std::time::Instant;
 
 use pty::Program;
 
@@ -49,8 +51,9 @@ fn it_starts_steps_and_follows_the_terminals_size() {
     program.press("ll");
     program.expect("3/5");
     program.press(&RIGHT.repeat(9));
-    let end = program.expect("5/5");
-    assert!(end.contains("(miss)"), "{end}");
+    program.until("the end, and what became of it", |screen| {
+        ["5/5", "(miss)"].iter().all(|text| screen.contents().contains(text))
+    });
     for size in [[80, 24], [40, 12], [1, 1], [200, 60]] {
         program.resize(size);
         program.press(if size == [1, 1] { "h" } else { CTRL_L });
@@ -63,6 +66,31 @@ fn it_starts_steps_and_follows_the_terminals_size() {
     program.press("q");
     let (status, _) = program.left();
     assert!(status.success(), "{status}");
+}
+
+#[test]
+fn two_hundred_cuts_are_walked_key_by_key() {
+    let folder = folder();
+    let cuts = concat!(env!("CARGO_MANIFEST_DIR"), "/recordings/wound/two-hundred-cuts.lancet");
+    fs::copy(cuts, folder.path().join("cuts.lancet")).expect("copied");
+    let mut program = Program::start(folder.path(), &["cuts.lancet"], [120, 40]);
+    let title = program.expect(" 0/").lines().next().expect("a title").to_owned();
+    let count = title.split("0/").nth(1).and_then(|rest| rest.split(' ').next()).expect("a number");
+    let count: usize = count.parse().expect("a number");
+    program.press("\x1b[F");
+    program.expect(&format!("{count}/{count}"));
+    let mut waits: Vec<u128> = (1..=40)
+        .map(|back| {
+            let begin = Instant::now();
+            program.press("h");
+            program.expect(&format!("{}/{count}", count - back));
+            begin.elapsed().as_millis()
+        })
+        .collect();
+    waits.sort_unstable();
+    eprintln!("{count} events: a key is answered after {} ms, {} ms at most", waits[20], waits[39]);
+    program.press("q");
+    program.left();
 }
 
 #[test]

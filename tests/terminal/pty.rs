@@ -52,7 +52,9 @@ impl Seen {
         while !holds(&shown) {
             let left = DEADLINE.checked_sub(begin.elapsed()).filter(|_| !shown.over);
             let Some(left) = left else {
-                panic!("{what} never came; the screen:\n{}", shown.parser.screen().contents())
+                let screen = shown.parser.screen().contents();
+                drop(shown);
+                panic!("{what} never came; the screen:\n{screen}")
             };
             shown = self.changed.wait_timeout(shown, left).expect("no reader panics").0;
         }

@@ -180,6 +180,20 @@ fn elements_are_marked_in_a_frame_and_in_a_map() {
 }
 
 #[test]
+fn the_invariants_of_pixels_are_looked_at_where_pixels_are_made() {
+    let (folder, _) = square();
+    let uv = "[[0, 1, 2], [0, 2, 3]], \"uv\": [[0, 0], [1, 0], [1, 1], [0, 1]]";
+    let script = folder.path().join("textured.json");
+    std::fs::write(&script, SQUARE.replace("[[0, 1, 2], [0, 2, 3]]", uv)).unwrap();
+    let checks = |rest: &[&str]| {
+        let replay = ["replay", script.to_str().unwrap(), "--renderer", "reference", "--json", "-"];
+        let report = json(&lancet(&[&replay[..], rest].concat()).1);
+        report["events"][2]["stages"][1]["checks"].as_array().unwrap().len()
+    };
+    assert!(checks(&["--pixels"]) > checks(&[]));
+}
+
+#[test]
 fn a_frame_is_taken_from_elsewhere() {
     let (folder, script) = square();
     let at = folder.path().join("frame.png").to_str().unwrap().to_owned();

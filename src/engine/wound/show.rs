@@ -13,7 +13,8 @@ use crate::report::{Counter, Counters, Overlay, Row, Table};
 pub(super) fn show(state: &State, work: &Work) -> Shown {
     match work {
         Work::Cut(cut) => {
-            Shown { counters: counters(state, cut), tables: vec![links(cut)], overlays: overlays(cut) }
+            let overlays = overlays(state, cut);
+            Shown { counters: counters(state, cut), tables: vec![links(cut)], overlays }
         }
         Work::Subdivide { refined, .. } => {
             let children = refined.children.iter().map(|c| c.len() as u64).sum();
@@ -87,7 +88,7 @@ fn links(cut: &Cut) -> Table {
     }
 }
 
-fn overlays(cut: &Cut) -> Vec<Overlay> {
+fn overlays(state: &State, cut: &Cut) -> Vec<Overlay> {
     let chain = &cut.formed.chain;
     let line = chain.points.iter().map(|p| p.position.to_array()).collect();
     let picks = cut.picked.iter().flatten().map(|p| p.point.position.to_array()).collect();
@@ -100,7 +101,25 @@ fn overlays(cut: &Cut) -> Vec<Overlay> {
         Overlay::Faces { name: "painted".into(), faces: painted },
     ];
     overlays.extend(configurations(cut));
+    overlays.extend(stages(state, cut));
     overlays
+}
+
+/// The faces that each stage worked on: those that FC's line crosses, GP's patch covers, PP painted; those that MC made of what it divided, and those that CI
+/// changed or made.
+fn stages(state: &State, cut: &Cut) -> Vec<Overlay> {
+    let crossed: BTreeSet<u32> = cut.formed.chain.links.iter().map(|link| link.face.0).collect();
+    let painted = cut.painted.as_ref().map(|painted| &painted.painting.paint);
+    let inner = painted.map_or_else(Vec::new, |paint| distinct(&paint.faces[..paint.inner]));
+    let outer = painted.map_or_else(Vec::new, |paint| distinct(&paint.faces));
+    let merged = cut.refined.children.iter().flatten().map(|face| face.0).collect();
+    let carved = match cut.carved.gutter.is_empty() {
+        true => Vec::new(),
+        false => state.mesh.touched_since(cut.before_carve.mark).faces.iter().map(|face| face.0).collect(),
+    };
+    let sets =
+        [("FC", crossed.into_iter().collect()), ("GP", inner), ("PP", outer), ("MC", merged), ("CI", carved)];
+    sets.map(|(stage, faces)| Overlay::Faces { name: format!("stage {stage}"), faces }).into()
 }
 
 /// The faces that links cross, by configuration: where they were divided, what they were divided into.

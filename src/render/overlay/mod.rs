@@ -6,7 +6,7 @@
 //! | `texture` | the same in texture space: [`draw_uv`] |
 //! | `marked` | elements by their printed ids |
 //! | `ink` | how much of a colour each pixel takes |
-//! | `pick` | the way back: the face at a pixel, [`face_at`] |
+//! | `pick` | the way back: the face at a pixel, [`face_at`], or at texture coordinates, [`face_at_uv`] |
 //!
 //! Each drawing is collected as ink and laid over the picture at once, so that strokes that cross do not add up.
 
@@ -21,7 +21,7 @@ mod texture;
 use ink::Ink;
 use marked::Marked;
 pub use marked::missing;
-pub use pick::face_at;
+pub use pick::{face_at, face_at_uv};
 use scene::Scene;
 pub use texture::draw_uv;
 
@@ -69,6 +69,11 @@ mod share {
     pub(super) const FULL: u8 = 255;
     pub(super) const HIDDEN_FACE: u8 = 55;
     pub(super) const HIDDEN_LINE: u8 = 120;
+}
+
+/// The colour of a set of faces: of those that are drawn over one picture, the first, the second, and so on.
+pub fn face_colour(order: usize) -> [u8; 3] {
+    FACES[order % FACES.len()]
 }
 
 /// Draws over a frame of a view of a mesh, in order.

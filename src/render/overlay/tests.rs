@@ -200,3 +200,19 @@ fn on_a_map_faces_and_charts_are_tinted_and_nodes_marked() {
     assert_eq!(node.at(1, 0)[..3], MARK, "maps repeat");
     assert_eq!(node, vertex);
 }
+
+#[test]
+fn the_face_at_texture_coordinates_is_the_one_that_is_tinted_there() {
+    let mesh = mesh();
+    let sets: Vec<Image> = (0..4)
+        .map(|face| mapped(&[Drawing::Shown(&Overlay::Faces { name: "one".into(), faces: vec![face] })]))
+        .collect();
+    for (x, y) in (0..32).flat_map(|x| (0..16).map(move |y| (x, y))) {
+        // Beside the middle of the texel, where no two faces meet.
+        let at = [(f64::from(x) + 0.52) / 32.0, 1.0 - (f64::from(y) + 0.51) / 16.0];
+        let tinted = sets.iter().position(|image| image.at(x, y) != BLANK).map(FaceId::of);
+        assert_eq!(face_at_uv(&mesh, at), tinted, "{x} {y}");
+        assert_eq!(face_at_uv(&mesh, [at[0] + 3.0, at[1] - 2.0]), None, "only what a face has is repeated");
+    }
+    assert_eq!(face_at_uv(&mesh, [f64::NAN, 0.5]), None);
+}

@@ -1,6 +1,15 @@
 use super::*;
 
-const ACTIONS: [&str; 5] = ["quit", "search", "palette", "step-forward", "step-back"];
+const NAMES: [&str; 5] = ["quit", "search", "palette", "step-forward", "step-back"];
+
+/// The last of them in a scope of its own.
+const ACTIONS: [Known; 5] = [
+    Known { name: NAMES[0], scope: 0 },
+    Known { name: NAMES[1], scope: 0 },
+    Known { name: NAMES[2], scope: 0 },
+    Known { name: NAMES[3], scope: 0 },
+    Known { name: NAMES[4], scope: 1 },
+];
 
 fn parse(text: &str) -> Result<Config, ConfigError> {
     Config::parse(text.as_bytes(), Path::new("my.toml"), &ACTIONS)
@@ -12,14 +21,13 @@ fn refused(text: &str) -> String {
 }
 
 #[test]
-fn the_example_above_reads() {
-    let source = include_str!("../config.rs");
-    let example = source.lines().skip_while(|line| *line != "//! ```toml").skip(1);
-    let example: Vec<&str> =
-        example.take_while(|line| *line != "//! ```").filter_map(|line| line.strip_prefix("//!")).collect();
-    let config = parse(&example.join("\n")).unwrap_or_else(|error| panic!("{error}"));
+fn the_example_reads_and_the_readme_has_it() {
+    let config = parse(EXAMPLE).unwrap_or_else(|error| panic!("{error}"));
+    let own = Config::parse(EXAMPLE.as_bytes(), Path::new("my.toml"), &crate::tui::actions());
+    assert_eq!(own.as_ref(), Ok(&config), "its actions are there");
+    assert!(include_str!("../../../README.md").contains(EXAMPLE));
     let key = |text: &str| text.parse::<Key>().expect("a key");
-    let keys = [("quit", vec![key("q"), key("ctrl-c")]), ("search", vec![key("/")]), ("palette", vec![])];
+    let keys = [("quit", vec![key("q"), key("ctrl-x")]), ("search", vec![key("/")]), ("palette", vec![])];
     assert_eq!(config.keys, keys.map(|(name, keys)| (name.to_owned(), keys)));
     let style = |text: &str| theme::style(text).expect("a style");
     let roles = vec![(Role::Accent, style("#56b4e9")), (Role::Selected, style("bold white on blue"))];
@@ -81,6 +89,14 @@ fn errors_name_file_line_column_and_cause() {
 }
 
 #[test]
+fn a_key_that_is_given_away_twice_is_refused_unless_it_counts_in_two_places() {
+    let text = "[keys]\nquit = ['x', 'ctrl-q']\nsearch = ['y', 'ctrl-Q']";
+    assert_eq!(refused(text), "my.toml:3:16: `ctrl-q` cannot be a key of both `quit` and `search`");
+    assert!(parse("[keys]\nquit = 'x'\nstep-back = 'x'").is_ok(), "two scopes");
+    assert!(parse("[keys]\nquit = ['x', 'x']").is_ok(), "twice the same");
+}
+
+#[test]
 fn grammar_is_checked_before_meaning_and_the_first_fault_is_told() {
     assert!(refused("mouse = \nmuose = 1").starts_with("my.toml:1:"), "{}", refused("mouse = \nmuose = 1"));
     assert!(refused("zebra = 1\nant = 1").starts_with("my.toml:1:1: there is no setting `zebra`"));
@@ -108,7 +124,7 @@ fn a_file_that_was_named_must_be_there() {
 #[test]
 fn the_name_that_was_meant_is_near() {
     assert_eq!([distance("", "abc"), distance("kitten", "sitting"), distance("same", "same")], [3, 3, 0]);
-    assert_eq!(nearest("qiut", &ACTIONS), Some("quit"));
-    assert_eq!(nearest("nonsense", &ACTIONS), None);
+    assert_eq!(nearest("qiut", &NAMES), Some("quit"));
+    assert_eq!(nearest("nonsense", &NAMES), None);
     assert_eq!(nearest("x", &[]), None);
 }

@@ -40,12 +40,14 @@ pub struct Request {
     pub window: Window,
     /// The pane, in cells.
     pub area: Size,
+    /// How it reaches the terminal.
+    pub medium: Medium,
 }
 
 impl Request {
     /// A whole picture.
     pub fn whole(number: u64, image: Arc<Image>, area: Size) -> Self {
-        Self { number, image, beside: None, window: Window::default(), area }
+        Self { number, image, beside: None, window: Window::default(), area, medium: Medium::BLOCKS }
     }
 
     /// What makes it look as it does.
@@ -55,6 +57,7 @@ impl Request {
             share: self.beside.as_ref().map(|(_, share)| *share),
             window: self.window,
             area: self.area,
+            medium: self.medium,
         }
     }
 }
@@ -65,14 +68,12 @@ struct Key {
     share: Option<f64>,
     window: Window,
     area: Size,
+    medium: Medium,
 }
 
-/// A picture that is ready to be drawn: as a widget, at the pane's place.
+/// A picture that is ready to be drawn at the pane's place.
 pub struct Encoded {
-    /// The request's.
-    pub number: u64,
-    /// The pane that it was made for.
-    pub area: Size,
+    key: Key,
     /// Where the picture lies in the pane: what a click means.
     pub fit: Fit,
     shape: Shape,
@@ -80,61 +81,84 @@ pub struct Encoded {
 
 enum Shape {
     Blocks(Blocks),
-    Graphics(Protocol),
+    /// With half blocks of the same, to be shown while something lies over the picture.
+    Graphics(Protocol, Blocks),
     Nothing,
 }
 
 impl fmt::Debug for Encoded {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "Encoded {} for {}", self.number, self.area)
+        write!(f, "Encoded {} for {}", self.key.number, self.key.area)
     }
 }
 
-impl Widget for &Encoded {
-    /// Graphics that do not fit, since the pane has become smaller, are left out until the new ones come.
-    fn render(self, area: Rect, buffer: &mut Buffer) {
+impl Encoded {
+    /// The request's number.
+    pub fn number(&self) -> u64 {
+        self.key.number
+    }
+
+    /// The pane that it was made for.
+    pub fn area(&self) -> Size {
+        self.key.area
+    }
+
+    /// Whether it is what is asked for.
+    pub fn answers(&self, request: &Request) -> bool {
+        self.key == request.key()
+    }
+
+    /// Draws it at the pane's place. Graphics cannot lie under text: while something covers a part of them, half blocks stand for all of it. Graphics that
+    /// do not fit, since the pane has become smaller, are left out until the new ones come.
+    pub fn draw(&self, area: Rect, buffer: &mut Buffer, is_covered: bool) {
         let area = area.intersection(buffer.area);
         match &self.shape {
-            Shape::Blocks(blocks) => blocks.render(area, buffer),
-            Shape::Graphics(graphics) => ratatui_image::Image::new(graphics).render(area, buffer),
+            Shape::Graphics(graphics, _) if !is_covered => {
+                ratatui_image::Image::new(graphics).render(area, buffer);
+            }
+            Shape::Blocks(blocks) | Shape::Graphics(_, blocks) => blocks.render(area, buffer),
             Shape::Nothing => {}
         }
     }
 }
 
 /// Makes a picture ready. An error says why it cannot be shown this way.
-pub fn encode(medium: &Medium, request: &Request) -> Result<Encoded, String> {
-    let pane = medium.pixels(request.area);
-    let fit = request.window.fit(request.image.size, pane);
-    let shape = if medium.kind == Kind::None || request.area.area() == 0 {
-        Shape::Nothing
-    } else {
-        let left = fit.crop(&request.image);
-        let picture = match &request.beside {
-            None => left,
-            Some((image, share)) => slider(&left, &request.window.fit(image.size, pane).crop(image), *share),
-        };
-        shape(medium, picture, request.area)?
+pub fn encode(request: &Request) -> Result<Encoded, String> {
+    let Request { image, window, area, medium, .. } = request;
+    let pane = medium.pixels(*area);
+    let shape = match medium.kind {
+        _ if area.area() == 0 => Shape::Nothing,
+        Kind::None => Shape::Nothing,
+        Kind::Halfblocks => Shape::Blocks(Blocks::new(&cut(request, pane))),
+        kind => {
+            let blocks = Blocks::new(&cut(request, Medium::BLOCKS.pixels(*area)));
+            Shape::Graphics(graphics(kind, cut(request, pane), *area)?, blocks)
+        }
     };
-    Ok(Encoded { number: request.number, area: request.area, fit, shape })
+    Ok(Encoded { key: request.key(), fit: window.fit(image.size, pane), shape })
 }
 
-fn shape(medium: &Medium, picture: Image, area: Size) -> Result<Shape, String> {
-    if medium.kind == Kind::Halfblocks {
-        return Ok(Shape::Blocks(Blocks::new(&picture, medium.depth)));
+/// What is seen in a pane of so many pixels.
+fn cut(Request { image, beside, window, .. }: &Request, pane: [u32; 2]) -> Image {
+    let left = window.fit(image.size, pane).crop(image);
+    match beside {
+        None => left,
+        Some((image, share)) => slider(&left, &window.fit(image.size, pane).crop(image), *share),
     }
+}
+
+fn graphics(kind: Kind, picture: Image, area: Size) -> Result<Protocol, String> {
     let [width, height] = picture.size;
     let bytes = picture.texels.into_flattened();
     let image =
         RgbaImage::from_raw(width, height, bytes).ok_or("the picture has not the size that it says")?;
     let image = DynamicImage::from(image);
-    let graphics = match medium.kind {
+    let graphics = match kind {
         Kind::Kitty => Kitty::new(image, area, NAME, false, true).map(Protocol::Kitty),
         Kind::Sixel => Sixel::new(image, area, false).map(Protocol::Sixel),
-        Kind::Iterm2 => Iterm2::new(image, area, false).map(Protocol::ITerm2),
-        Kind::Halfblocks | Kind::None => return Ok(Shape::Nothing),
+        _ => Iterm2::new(image, area, false).map(Protocol::ITerm2),
     };
-    graphics.map(Shape::Graphics).map_err(|error| error.to_string())
+    graphics.map_err(|error| format!("the picture cannot be shown: {error}"))
 }
 
 /// Where a request waits.
@@ -186,15 +210,12 @@ impl fmt::Debug for Encoder {
 
 impl Encoder {
     /// Starts the thread. It hands each picture to `done`. An error says that there can be no thread.
-    pub fn start(
-        medium: Medium,
-        mut done: impl FnMut(Result<Encoded, String>) + Send + 'static,
-    ) -> std::io::Result<Self> {
+    pub fn start(mut done: impl FnMut(Result<Encoded, String>) + Send + 'static) -> std::io::Result<Self> {
         let desk = Arc::new(Desk::default());
         let theirs = Arc::clone(&desk);
         let work = move || {
             while let Some(request) = theirs.take() {
-                done(encode(&medium, &request));
+                done(encode(&request));
             }
         };
         thread::Builder::new().name("encoder".into()).spawn(work)?;

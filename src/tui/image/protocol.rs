@@ -10,7 +10,7 @@ use std::str::FromStr;
 use crossterm::terminal::WindowSize;
 use ratatui::layout::Size;
 
-use super::blocks::Depth;
+use crate::tui::environment::Environment;
 
 /// What somebody asks for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -64,78 +64,6 @@ impl FromStr for ImageProtocol {
     }
 }
 
-/// What the environment tells of the terminal. A variable that is empty counts as none.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Environment {
-    /// `TERM`.
-    pub term: String,
-    /// `TERM_PROGRAM`.
-    pub program: String,
-    /// `COLORTERM`.
-    pub colours: String,
-    /// Whether `KITTY_WINDOW_ID` is set.
-    pub kitty: bool,
-    /// Whether `WEZTERM_PANE` or `WEZTERM_EXECUTABLE` is set.
-    pub wezterm: bool,
-    /// Whether `TMUX`, `STY` or `ZELLIJ` is set: a multiplexer stands between.
-    pub multiplexer: bool,
-    /// Whether `NO_COLOR` is set.
-    pub no_colour: bool,
-}
-
-impl Environment {
-    /// What variables tell, by whoever can read them.
-    pub fn of(read: impl Fn(&str) -> Option<String>) -> Self {
-        let text = |name: &str| read(name).unwrap_or_default();
-        let any = |names: &[&str]| names.iter().any(|name| !text(name).is_empty());
-        Self {
-            term: text("TERM"),
-            program: text("TERM_PROGRAM"),
-            colours: text("COLORTERM"),
-            kitty: any(&["KITTY_WINDOW_ID"]),
-            wezterm: any(&["WEZTERM_PANE", "WEZTERM_EXECUTABLE"]),
-            multiplexer: any(&["TMUX", "STY", "ZELLIJ"]),
-            no_colour: any(&["NO_COLOR"]),
-        }
-    }
-
-    /// The graphics that the terminal is known to have.
-    fn graphics(&self) -> Option<Kind> {
-        let term = |names: &[&str]| names.iter().any(|name| self.term.starts_with(name));
-        let program = |names: &[&str]| names.iter().any(|name| self.program.eq_ignore_ascii_case(name));
-        if self.multiplexer || term(&["tmux", "screen"]) || program(&["tmux"]) {
-            // Its own graphics, if any, are not those of the terminal around it, whose variables are still set.
-            None
-        } else if program(&["WezTerm", "iTerm.app", "mintty", "rio"]) || self.wezterm {
-            Some(Kind::Iterm2)
-        } else if term(&["xterm-kitty", "xterm-ghostty"]) || program(&["ghostty"]) || self.kitty {
-            Some(Kind::Kitty)
-        } else if term(&["foot", "mlterm", "contour"]) {
-            Some(Kind::Sixel)
-        } else {
-            None
-        }
-    }
-
-    /// How many colours the terminal has.
-    pub fn depth(&self) -> Depth {
-        let known = ["kitty", "ghostty", "foot", "alacritty", "wezterm", "direct"];
-        if self.no_colour || self.term == "dumb" {
-            Depth::Grey
-        } else if matches!(self.colours.as_str(), "truecolor" | "24bit") || self.has_any(&known) {
-            Depth::True
-        } else if self.term.contains("256color") {
-            Depth::Indexed
-        } else {
-            Depth::Sixteen
-        }
-    }
-
-    fn has_any(&self, terms: &[&str]) -> bool {
-        terms.iter().any(|name| self.term.contains(name))
-    }
-}
-
 /// What carries pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -158,8 +86,31 @@ pub struct Medium {
     pub kind: Kind,
     /// Pixels of a cell, across and down.
     pub cell: [u32; 2],
-    /// How many colours half blocks take.
-    pub depth: Depth,
+}
+
+impl Default for Medium {
+    fn default() -> Self {
+        Self::BLOCKS
+    }
+}
+
+/// The graphics that a terminal is known to have.
+fn graphics(environment: &Environment) -> Option<Kind> {
+    let Environment { term, program, kitty, wezterm, multiplexer, .. } = environment;
+    let term = |names: &[&str]| names.iter().any(|name| term.starts_with(name));
+    let program = |names: &[&str]| names.iter().any(|name| program.eq_ignore_ascii_case(name));
+    if *multiplexer || term(&["tmux", "screen"]) || program(&["tmux"]) {
+        // Its own graphics, if any, are not those of the terminal around it, whose variables are still set.
+        None
+    } else if program(&["WezTerm", "iTerm.app", "mintty", "rio"]) || *wezterm {
+        Some(Kind::Iterm2)
+    } else if term(&["xterm-kitty", "xterm-ghostty"]) || program(&["ghostty"]) || *kitty {
+        Some(Kind::Kitty)
+    } else if term(&["foot", "mlterm", "contour"]) {
+        Some(Kind::Sixel)
+    } else {
+        None
+    }
 }
 
 /// The largest picture that is worth rendering for a terminal.
@@ -172,15 +123,15 @@ const SUPERSAMPLED: u32 = 3;
 const USUAL_CELL: [u32; 2] = [10, 20];
 
 impl Medium {
-    /// Half blocks in all colours, for tests and for screens that are printed.
-    pub const BLOCKS: Self = Self { kind: Kind::Halfblocks, cell: [1, 2], depth: Depth::True };
+    /// Half blocks, for tests, for screens that are printed, and until more is known.
+    pub const BLOCKS: Self = Self { kind: Kind::Halfblocks, cell: [1, 2] };
 
     /// What is asked for; for `auto` what the terminal is known to have, if the font's size is known too.
     pub fn choose(asked: ImageProtocol, environment: &Environment, window: Option<&WindowSize>) -> Self {
         let font = window.and_then(font);
         let kind = match asked {
             ImageProtocol::Auto => {
-                environment.graphics().filter(|_| font.is_some()).unwrap_or(Kind::Halfblocks)
+                graphics(environment).filter(|_| font.is_some()).unwrap_or(Kind::Halfblocks)
             }
             ImageProtocol::Kitty => Kind::Kitty,
             ImageProtocol::Sixel => Kind::Sixel,
@@ -192,7 +143,7 @@ impl Medium {
             Kind::Halfblocks | Kind::None => Self::BLOCKS.cell,
             _ => font.unwrap_or(USUAL_CELL),
         };
-        Self { kind, cell, depth: environment.depth() }
+        Self { kind, cell }
     }
 
     /// The pixels of a pane.
@@ -278,15 +229,6 @@ mod tests {
             let asked = Medium::choose(ImageProtocol::Sixel, &kitty, window);
             assert_eq!((asked.kind, asked.cell), (Kind::Sixel, USUAL_CELL), "what was asked for is done");
         }
-    }
-
-    #[test]
-    fn colours_are_as_many_as_the_terminal_has() {
-        let depth = |variables: &[(&str, &str)]| environment(variables).depth();
-        assert_eq!(depth(&[("TERM", "xterm-256color"), ("COLORTERM", "truecolor")]), Depth::True);
-        assert_eq!(depth(&[("TERM", "xterm-256color")]), Depth::Indexed);
-        assert_eq!(depth(&[("TERM", "linux")]), Depth::Sixteen);
-        assert_eq!(depth(&[("TERM", "xterm-kitty"), ("NO_COLOR", "1")]), Depth::Grey);
     }
 
     #[test]

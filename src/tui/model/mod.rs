@@ -167,6 +167,8 @@ pub(in crate::tui) struct Model {
     pub(in crate::tui) answered: u64,
     /// What is to be done outside.
     pub(in crate::tui) effects: Vec<Effect>,
+    /// Whether it is over once the recording is saved.
+    pub(in crate::tui) leaving: bool,
     /// Whether it is over.
     pub(in crate::tui) done: bool,
 }
@@ -231,14 +233,6 @@ impl Model {
     pub(in crate::tui) fn ask(&mut self, ask: Ask) {
         self.asked += u64::from(ask.is_urgent());
         self.effects.push(Effect::Ask(ask));
-    }
-
-    /// Whether the worker is at work.
-    pub(in crate::tui) fn is_busy(&self) -> bool {
-        self.answered < self.asked
-            || self.progress.is_some()
-            || self.comparing.is_some()
-            || self.picture.is_awaited()
     }
 
     /// Chooses the rows of the place in the timeline and among the stages.

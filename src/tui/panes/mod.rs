@@ -38,7 +38,7 @@ pub(super) fn draw(pane: Pane, model: &Model, theme: &Theme, area: Rect, buffer:
         Pane::Timeline => timeline::draw(model, theme, area, buffer),
         Pane::Stages => stages::draw(model, theme, area, buffer),
         Pane::Mesh => mesh::draw(model, theme, area, body, buffer),
-        Pane::Picture => picture::draw(model, theme, area, buffer),
+        Pane::Picture => picture::draw(model, theme, buffer),
         Pane::Tables => tables::draw(model, theme, area, body, buffer),
         Pane::Checks => checks::draw(model, theme, area, buffer),
         Pane::Differences => differences::draw(model, theme, area, body, buffer),

@@ -35,6 +35,8 @@ fn short(word: &str, decimals: Option<usize>) -> String {
     let Some(value) = word.parse::<f64>().ok().filter(|_| word.contains('.')) else { return word.into() };
     let whole = value.to_string();
     let Some(decimals) = decimals else { return whole };
+    // Of an angle, or a share, the decimals are what it says.
+    let decimals = if value.abs() < 10.0 { decimals.max(2) } else { decimals };
     let rounded = format!("{value:.decimals$}");
     if rounded.len() < whole.len() { rounded } else { whole }
 }
@@ -52,6 +54,7 @@ mod tests {
         assert_eq!(fitted(line, 15), "click 640 300");
         assert_eq!(fitted(line, 10), "click 640…");
         assert_eq!(fitted(line, 0), "");
+        assert_eq!(fitted(r#"{"camera":{"azimuth":0.15625}}"#, 20), "camera azimuth 0.16");
     }
 
     #[test]

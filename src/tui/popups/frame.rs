@@ -1,7 +1,7 @@
 //! The border of a popup, and where it is.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Clear, Widget};
@@ -13,9 +13,13 @@ use crate::tui::theme::{Role, Theme};
 /// Below this many columns and rows a border would leave nothing to see.
 const LEAST: [u16; 2] = [12, 5];
 
-/// The middle of a screen, with a margin where there is room for one.
+/// From this many rows on, the first and the last of the screen stay in sight: they say where one is, and what went wrong.
+const HIGH: u16 = 8;
+
+/// The middle of a screen.
 pub(super) fn area(size: [u16; 2], wants: [usize; 2]) -> Rect {
-    let [width, height] = [0, 1].map(|axis| u16::try_from(wants[axis]).unwrap_or(u16::MAX).min(size[axis]));
+    let most = [size[0], if size[1] < HIGH { size[1] } else { size[1] - 2 }];
+    let [width, height] = [0, 1].map(|axis| u16::try_from(wants[axis]).unwrap_or(u16::MAX).min(most[axis]));
     Rect { x: (size[0] - width) / 2, y: (size[1] - height) / 2, width, height }
 }
 
@@ -64,20 +68,6 @@ pub(super) fn edit(edit: &Edit, theme: &Theme, area: Rect, buffer: &mut Buffer) 
     Line::from(spans.to_vec()).render(area, buffer);
 }
 
-/// A text in lines of at most this many cells, broken at blanks where there are any.
-pub(super) fn wrap(said: &str, width: usize) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    for word in said.split_whitespace() {
-        let line = lines.last_mut().map_or_else(String::new, std::mem::take);
-        let both = if line.is_empty() { word.to_owned() } else { format!("{line} {word}") };
-        let fits = line.is_empty() || text::width(&both) <= width;
-        let kept = if fits { [both, String::new()] } else { [line, word.to_owned()] };
-        lines.pop();
-        lines.extend(kept.into_iter().filter(|line| !line.is_empty()));
-    }
-    lines.iter().map(|line| text::fit(line, width)).collect()
-}
-
 /// Writes lines of a style from a row of an area on, as far as they fit; answers the row after them.
 pub(super) fn lines(lines: &[String], style: Style, area: Rect, from: usize, buffer: &mut Buffer) -> usize {
     for (at, line) in lines.iter().enumerate() {
@@ -85,9 +75,4 @@ pub(super) fn lines(lines: &[String], style: Style, area: Rect, from: usize, buf
         buffer.set_stringn(area.x, area.y, line, usize::from(area.width) * usize::from(area.height), style);
     }
     from + lines.len()
-}
-
-/// The row of an area that a cell is in.
-pub(super) fn row_of(area: Rect, at: Position) -> Option<usize> {
-    area.contains(at).then(|| usize::from(at.y - area.y))
 }

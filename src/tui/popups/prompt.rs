@@ -14,6 +14,7 @@ use ratatui::layout::Rect;
 
 use super::{Popup, frame};
 use crate::tui::edit::Edit;
+use crate::tui::text;
 use crate::tui::theme::{Role, Theme};
 
 /// What is asked.
@@ -25,8 +26,6 @@ pub(in crate::tui) enum Question {
     Search,
     /// A breakpoint to add.
     Stop,
-    /// The recording to open.
-    Open,
     /// The run to compare with.
     CompareWith,
     /// The name of a checkpoint.
@@ -54,7 +53,6 @@ impl Question {
                 "add a breakpoint",
                 "finding, rejected, rejected=REASON, COUNTER=NAME, COUNTER=N, STAGE>MILLISECONDS",
             ],
-            Self::Open => ["open a recording or a script", "recordings/cut.lancet"],
             Self::CompareWith => ["compare with another run's JSON", "other-run.json"],
             Self::Checkpoint => ["set a checkpoint", "a name of its own, such as after-the-second-cut"],
             Self::Event => ["type an event as it stands in a script", r#"{"undo": {}}"#],
@@ -66,7 +64,7 @@ impl Question {
 
     /// Whether the answer is a file.
     pub(in crate::tui) fn is_file(self) -> bool {
-        matches!(self, Self::Open | Self::CompareWith | Self::Save | Self::SavePicture | Self::Scene)
+        matches!(self, Self::CompareWith | Self::Save | Self::SavePicture | Self::Scene)
     }
 }
 
@@ -91,6 +89,8 @@ pub(in crate::tui) struct Prompt {
 
 /// How wide it is, where there is room.
 const WIDTH: usize = 72;
+/// How many lines of what is said are in view.
+const SAID: usize = 4;
 /// How many choices are in view.
 const CHOICES: usize = 8;
 
@@ -116,7 +116,7 @@ impl Prompt {
     }
 
     pub(super) fn wants(&self) -> [usize; 2] {
-        let said = frame::wrap(&self.said(), WIDTH - 4).len();
+        let said = text::wrap(&self.said(), WIDTH - 4, SAID).len();
         [WIDTH, 3 + said + self.choices.len().min(CHOICES)]
     }
 
@@ -138,13 +138,13 @@ impl Prompt {
     pub(super) fn draw(&self, theme: &Theme, area: Rect, buffer: &mut Buffer) {
         frame::edit(&self.edit, theme, frame::row(area, 0), buffer);
         let said = if self.error.is_some() { Role::Bad } else { Role::Faint };
-        let lines = frame::wrap(&self.said(), usize::from(area.width));
+        let lines = text::wrap(&self.said(), usize::from(area.width), SAID);
         let from = frame::lines(&lines, theme.style(said), area, 1, buffer);
         let (chosen, room) = (self.chosen.unwrap_or(0), usize::from(area.height).saturating_sub(from));
         let first = (chosen + 1).saturating_sub(room);
         for (row, (at, choice)) in self.choices.iter().enumerate().skip(first).take(room).enumerate() {
             let role = if self.chosen == Some(at) { Role::Selected } else { Role::Text };
-            let fitted = crate::tui::text::pad(choice, usize::from(area.width));
+            let fitted = text::pad(choice, usize::from(area.width));
             frame::lines(&[fitted], theme.style(role), area, from + row, buffer);
         }
     }

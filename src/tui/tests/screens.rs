@@ -5,7 +5,10 @@
 
 use std::path::Path;
 
+use crossterm::event::Event;
+
 use super::opened;
+use crate::tui::Stage;
 use crate::tui::lower::Depth;
 use crate::tui::screen;
 use crate::tui::theme::{Base, Theme};
@@ -18,10 +21,15 @@ const LARGE: [u16; 2] = [120, 40];
 const USUAL: [u16; 2] = [80, 24];
 const SMALL: [u16; 2] = [40, 12];
 
-/// A screen, as text with its styles.
-fn styled(keys: &str, theme: Theme, size: [u16; 2]) -> String {
+/// The screen that keys lead to.
+fn led(keys: &str, theme: Theme, size: [u16; 2]) -> Stage {
     let mut stage = opened(Path::new("tests/fixtures/screen.json"), theme, size);
     stage.press(keys).expect("keys");
+    stage
+}
+
+/// It, as text with its styles.
+fn styled(stage: &Stage) -> String {
     screen::to_styled(&stage.screen())
 }
 
@@ -32,40 +40,32 @@ fn check(name: &str, look: &str, [width, height]: [u16; 2], screen: &str) {
     settings.bind(|| insta::assert_snapshot!(format!("{name}-{look}-{width}x{height}"), screen));
 }
 
-fn check_all(look: &str, theme: &Theme, size: [u16; 2]) {
+/// All screens, first at one size, and then as they follow the terminal to others.
+fn check_all(look: &str, theme: &Theme, sizes: &[[u16; 2]]) {
     for (name, keys) in SCREENS {
-        check(name, look, size, &styled(keys, theme.clone(), size));
+        let mut stage = led(keys, theme.clone(), USUAL);
+        for [width, height] in sizes {
+            stage.take(Event::Resize(*width, *height));
+            check(name, look, [*width, *height], &styled(&stage));
+        }
     }
 }
 
 #[test]
-fn dark_and_large() {
-    check_all("dark", &Theme::default(), LARGE);
-}
-
-#[test]
-fn dark_and_usual() {
-    check_all("dark", &Theme::default(), USUAL);
-}
-
-#[test]
-fn dark_and_small() {
-    check_all("dark", &Theme::default(), SMALL);
+fn at_every_size() {
+    check_all("dark", &Theme::default(), &[USUAL, LARGE, SMALL]);
 }
 
 #[test]
 fn without_colour_nothing_is_missing() {
-    for size in [USUAL, SMALL] {
-        let plain = Theme::new(Base::Dark, Depth::None);
-        check_all("plain", &plain, size);
-    }
+    check_all("plain", &Theme::new(Base::Dark, Depth::None), &[USUAL, SMALL]);
 }
 
 #[test]
 fn on_a_light_ground_the_same_is_said() {
     for (name, keys) in SCREENS {
-        let dark = styled(keys, Theme::default(), USUAL);
-        let light = styled(keys, Theme::new(Base::Light, Depth::Full), USUAL);
+        let [dark, light] =
+            [Base::Dark, Base::Light].map(|base| styled(&led(keys, Theme::new(base, Depth::Full), USUAL)));
         let [(dark, _), (light, styles)] =
             [&dark, &light].map(|screen| screen.split_once("styles\n").expect("styles"));
         assert_eq!(dark, light);

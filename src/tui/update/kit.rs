@@ -12,7 +12,6 @@ pub(in crate::tui) fn model() -> Model {
         path: Some("some/where.lancet".into()),
         engine: "an-engine".into(),
         stages: ["AA", "SO", "AB"].map(|id| (id.into(), "a stage".into())).to_vec(),
-        modes: vec!["one".into()],
         lines: ["mode", "click", "cut", "cut"].map(|kind| format!("{{\"{kind}\":[]}}")).to_vec(),
         scene: "builtin:some".into(),
         viewport: [640, 480],
@@ -39,5 +38,10 @@ pub(in crate::tui) fn reports() -> Vec<EventReport> {
 
 /// The worker at a place.
 pub(in crate::tui) fn standing(place: Place) -> Standing {
-    Standing { place, mode: "", within: None, sizes: Vec::new(), orbit: None, kept_bytes: 0 }
+    Standing { place, within: None, sizes: Vec::new(), orbit: None, mode: "one", kept_bytes: 0 }
+}
+
+/// Lets the last event run, too.
+pub(in crate::tui) fn report_all(model: &mut Model) {
+    model.reports.push(Arc::new(EventReport::new(3, "cut")));
 }

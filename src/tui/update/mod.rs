@@ -7,26 +7,32 @@ mod copy;
 mod focus;
 #[cfg(test)]
 pub(in crate::tui) mod kit;
+pub(in crate::tui) mod picture;
 pub(in crate::tui) mod popup;
 pub(in crate::tui) mod record;
 mod search;
 mod step;
+pub(in crate::tui) mod stops;
 mod told;
 
 pub(in crate::tui) use focus::reveal;
 pub(in crate::tui) use step::{beat, go};
 pub(in crate::tui) use told::told;
 
+use std::path::PathBuf;
+
 use crate::tui::action::Action;
 use crate::tui::model::{Effect, Model, Pane};
-use crate::tui::popups::Question;
+use crate::tui::popups::{Question, What};
 use crate::tui::worker::Ask;
 
-/// Asks for the picture that is wanted, if it is not the one that is there or was asked for.
-pub(in crate::tui) fn want_picture(model: &mut Model) {
-    let Some(shot) = model.picture.shot(model) else { return };
-    model.picture.asked = Some((model.place, shot.clone()));
-    model.ask(Ask::Shoot(Box::new(shot)));
+/// Begins: with a recording, or with what could be opened.
+pub(in crate::tui) fn begin(model: &mut Model, recording: Option<PathBuf>) {
+    match recording {
+        Some(path) => model.ask(Ask::Open(path)),
+        None => popup::open(model),
+    }
+    model.ask(Ask::Drafts);
 }
 
 /// Does something.
@@ -96,9 +102,34 @@ pub(in crate::tui) fn act(model: &mut Model, action: Action) {
         | A::Event
         | A::Drop
         | A::Save => record::act(model, action),
+        A::Wire
+        | A::Lines
+        | A::Tint
+        | A::Subject
+        | A::Split
+        | A::SplitLeft
+        | A::SplitRight
+        | A::OrbitLeft
+        | A::OrbitRight
+        | A::OrbitUp
+        | A::OrbitDown
+        | A::Nearer
+        | A::Farther
+        | A::ZoomIn
+        | A::ZoomOut
+        | A::PanLeft
+        | A::PanRight
+        | A::PanUp
+        | A::PanDown
+        | A::ResetView
+        | A::SaveFrame => picture::act(model, action),
         A::Suspend => model.effects.push(Effect::Suspend),
         A::Redraw => model.effects.push(Effect::Redraw),
-        A::Quit | A::Leave => model.done = true,
-        other => model.complain(format!("{} is not there yet", other.row().name)),
+        A::Stops => popup::choose(model, What::Stops),
+        A::Open => popup::open(model),
+        A::Help => popup::choose(model, What::Help),
+        A::Palette => popup::choose(model, What::Palette),
+        A::Quit => popup::quit(model),
+        A::Leave => model.done = true,
     }
 }

@@ -8,6 +8,7 @@ use std::time::Duration;
 use crate::report::EventReport;
 use crate::tui::action::Action;
 use crate::tui::model::{Model, Pace, Place, ran};
+use crate::tui::update::stops;
 use crate::tui::worker::Ask;
 
 /// The pauses that playing can have, milliseconds.
@@ -31,7 +32,7 @@ pub(super) fn act(model: &mut Model, action: Action) {
         Action::Play => play(model),
         Action::Faster => pace(model, -1),
         Action::Slower => pace(model, 1),
-        Action::RunOn => model.ask(Ask::Run(model.stops.clone())),
+        Action::RunOn => stops::run_on(model),
         Action::Cancel => cancel(model),
         _ => model.ask(Ask::Check),
     }
@@ -171,7 +172,9 @@ pub(in crate::tui) fn beat(model: &mut Model) {
         model.playing = None;
         return;
     }
-    go(model, Place::after(model.place.events + 1));
+    let event = model.place.events;
+    go(model, Place::after(event + 1));
+    stops::halt(model, event);
 }
 
 fn cancel(model: &mut Model) {

@@ -4,12 +4,13 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::canvas::frame::Orbit;
+use crate::canvas::image::Image;
 use crate::replay::Input;
 use crate::report::{EventReport, Finding, StateReport, Stop};
 use crate::tui::compare::{Differences, Job};
 use crate::tui::model::Place;
 use crate::tui::record::Draft;
-use crate::tui::shot::{Picture, Shot};
+use crate::tui::shot::{Picture, Shot, Sight};
 
 /// Something to do.
 #[derive(Clone, Debug)]
@@ -18,12 +19,33 @@ pub(in crate::tui) enum Ask {
     Open(PathBuf),
     /// Go to a place, and run what has not run yet on the way.
     Go(Place),
-    /// Run until one of these holds, or to the end.
-    Run(Vec<Stop>),
+    /// Run on until an event meets a breakpoint, or to the end.
+    Run {
+        /** The first event that may meet one. */
+        from: usize,
+        /** The breakpoints. */
+        stops: Vec<Stop>,
+    },
     /// Run what has not run yet, while nothing else is wanted, and come back.
     Learn,
     /// Take a picture of where the worker is. Only the newest is taken.
     Shoot(Box<Shot>),
+    /// Tell which face is seen at a place of a picture.
+    Identify {
+        /** Where it was taken. */
+        place: Place,
+        /** What lies where in it. */
+        sight: Sight,
+        /** The place, in shares of its width and height. */
+        at: [f64; 2],
+    },
+    /// Write a picture to a file.
+    SavePicture {
+        /** The file. */
+        path: PathBuf,
+        /** The picture. */
+        what: Frame,
+    },
     /// Look at the invariants of the whole state, as it is now.
     Check,
     /// Begin a recording.
@@ -51,6 +73,15 @@ pub(in crate::tui) enum Ask {
     Cancel,
 }
 
+/// A picture to write.
+#[derive(Clone, Debug)]
+pub(in crate::tui) enum Frame {
+    /// One that is still to be taken.
+    Shot(Box<Shot>),
+    /// One that is there.
+    Image(Arc<Image>),
+}
+
 /// Something to record. What it is depends on the state that it is done to, which the worker knows.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::tui) enum Hand {
@@ -74,9 +105,17 @@ impl Ask {
         !quiet && !matches!(self, Self::Compare(_) | Self::StopComparing)
     }
 
+    /// Whether it leaves the state as it is.
+    pub(in crate::tui) fn keeps_the_state(&self) -> bool {
+        let looks = matches!(self, Self::Shoot(_) | Self::Identify { .. } | Self::SavePicture { .. });
+        let tells = matches!(self, Self::Check | Self::Learn | Self::Save(_) | Self::Drafts | Self::Cancel);
+        looks || tells || matches!(self, Self::Compare(_) | Self::StopComparing)
+    }
+
     /// Whether it puts an end to what is being done.
     pub(in crate::tui) fn interrupts(&self) -> bool {
-        self.is_urgent() && !matches!(self, Self::Check | Self::Drafts)
+        let looks = matches!(self, Self::Check | Self::Identify { .. } | Self::SavePicture { .. });
+        self.is_urgent() && !looks && !matches!(self, Self::Drafts)
     }
 }
 
@@ -89,8 +128,6 @@ pub(in crate::tui) struct Opened {
     pub(in crate::tui) engine: String,
     /// The engine's stages: short name and title.
     pub(in crate::tui) stages: Vec<(String, String)>,
-    /// The modes that can be chosen by hand.
-    pub(in crate::tui) modes: Vec<String>,
     /// The events as they stand in a script.
     pub(in crate::tui) lines: Vec<String>,
     /// What it was recorded on.
@@ -130,6 +167,22 @@ pub(in crate::tui) enum Told {
     },
     /// The picture that was asked for.
     Picture(Box<Picture>),
+    /// The picture of this number cannot be had, and why.
+    NoPicture {
+        /** The number. */
+        number: u64,
+        /** Why. */
+        why: String,
+    },
+    /// The face that was asked for, if there is one.
+    Identified(Option<String>),
+    /// A picture was written to a file.
+    PictureSaved {
+        /** The file. */
+        path: PathBuf,
+        /** Width and height. */
+        size: [u32; 2],
+    },
     /// The invariants of the whole state.
     Checked(Box<StateReport>),
     /// What is recorded, up to which event it is as before, and what comes after that.

@@ -3,13 +3,15 @@
 //! The desk knows no thread. It is told of things to do one by one, and asks its [`Line`] whether to go on; so a test can work through it step
 //! by step, and the screen's own thread never waits for a cut or a picture.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::ask::{Ask, Opened, Standing, Told};
+use super::ask::{Ask, Frame, Opened, Standing, Told};
+use super::camera::{self, Camera, Taken};
+use super::compare;
 use super::recording::{self, Making};
-use super::{camera, compare};
+use crate::assets;
 use crate::canvas::Studio;
 use crate::render::{self, Choice};
 use crate::replay::{Case, Options, Replay};
@@ -17,7 +19,7 @@ use crate::report::{EventReport, Stop};
 use crate::tui::compare::Job;
 use crate::tui::model::Place;
 use crate::tui::record::Drafts;
-use crate::tui::shot::{Picture, Shot};
+use crate::tui::shot::{self, Picture, Shot, Sight};
 
 /// The way back to the screen.
 pub(in crate::tui) trait Line {
@@ -53,13 +55,21 @@ pub(in crate::tui) struct Desk {
     budget_bytes: usize,
     studio: Option<Box<dyn Studio>>,
     drafts: Drafts,
+    camera: Camera,
     open: Option<Open>,
 }
 
 impl Desk {
     /// A desk with nothing on it. The renderer is opened with the first recording.
     pub(in crate::tui) fn new(choice: Choice, budget_bytes: usize) -> Self {
-        Self { choice, budget_bytes, studio: None, drafts: Drafts::default(), open: None }
+        Self {
+            choice,
+            budget_bytes,
+            studio: None,
+            drafts: Drafts::default(),
+            camera: Camera::default(),
+            open: None,
+        }
     }
 
     /// The same, which keeps what is recorded as drafts.
@@ -71,6 +81,9 @@ impl Desk {
     /// Does one thing.
     pub(in crate::tui) fn handle(&mut self, ask: Ask, line: &mut dyn Line) {
         let urgent = ask.is_urgent();
+        if !ask.keeps_the_state() {
+            self.camera.forget();
+        }
         if let Err(why) = self.try_to(ask, line) {
             line.tell(Told::Failed(why));
         }
@@ -81,9 +94,18 @@ impl Desk {
         match ask {
             Ask::Open(path) => self.open_file(&path, line),
             Ask::Go(place) => self.opened()?.go(place, line),
-            Ask::Run(stops) => self.opened()?.run(&stops, line),
+            Ask::Run { from, stops } => self.opened()?.run(from, &stops, line),
             Ask::Learn => self.opened()?.learn(line),
-            Ask::Shoot(shot) => self.shoot(*shot, line),
+            Ask::Shoot(shot) => {
+                self.shoot(*shot, line);
+                Ok(())
+            }
+            Ask::Identify { place, sight, at } => {
+                let face = self.opened()?.face(place, &sight, at)?;
+                line.tell(Told::Identified(face));
+                Ok(())
+            }
+            Ask::SavePicture { path, what } => self.save_picture(path, what, line),
             Ask::Check => {
                 let state = self.opened()?.replay.state();
                 line.tell(Told::Checked(Box::new(state)));
@@ -165,7 +187,6 @@ impl Desk {
             path: path.map(Path::to_owned),
             engine: replay.engine().into(),
             stages: replay.stages().into_iter().map(|(id, title)| (id.into(), title.into())).collect(),
-            modes: recording.modes().iter().map(|mode| (*mode).into()).collect(),
             lines: recording.event_lines(),
             scene: recording.scene().to_string(),
             viewport: recording.viewport(),
@@ -176,14 +197,36 @@ impl Desk {
         Ok(open)
     }
 
-    fn shoot(&mut self, shot: Shot, line: &mut dyn Line) -> Result<(), String> {
-        let open = self.opened()?;
+    fn shoot(&mut self, shot: Shot, line: &mut dyn Line) {
         let clock = Instant::now();
-        let shown = open.shown();
-        let image = camera::take(open.replay.as_mut(), shown, &shot)?;
-        let ms = clock.elapsed().as_secs_f64() * 1e3;
-        let picture = Picture { shot, place: open.place, image, ms };
-        line.tell(Told::Picture(Box::new(picture)));
+        let number = shot.number;
+        line.tell(match self.take(shot) {
+            Ok(picture) => {
+                let ms = clock.elapsed().as_secs_f64() * 1e3;
+                Told::Picture(Box::new(Picture { ms, ..picture }))
+            }
+            Err(why) => Told::NoPicture { number, why },
+        });
+    }
+
+    /// Takes a picture.
+    fn take(&mut self, shot: Shot) -> Result<Picture, String> {
+        let Self { open, camera, .. } = self;
+        let open = open.as_mut().ok_or(NOTHING)?;
+        let of = open.source().map(|report| report.index);
+        let overlays = open.source().map_or_else(Vec::new, |report| report.overlays.clone());
+        let Taken { image, sight, legend } = camera.take(open.replay.as_mut(), &overlays, &shot)?;
+        Ok(Picture { shot, place: open.place, image, sight, of, legend, ms: 0.0 })
+    }
+
+    fn save_picture(&mut self, path: PathBuf, what: Frame, line: &mut dyn Line) -> Result<(), String> {
+        let image = match what {
+            Frame::Shot(shot) => self.take(*shot)?.image,
+            Frame::Image(image) => image,
+        };
+        let png = assets::write_png(&image).map_err(|fault| fault.to_string())?;
+        assets::write_file(&path, &png).map_err(|error| error.to_string())?;
+        line.tell(Told::PictureSaved { path, size: image.size });
         Ok(())
     }
 }
@@ -194,10 +237,17 @@ impl Open {
         Self { case, replay, place, within, told: 0, found: false, ended: false, making }
     }
 
-    /// The report of the event that ran last, or that is held.
-    fn shown(&self) -> Option<EventReport> {
-        let held = self.within.as_deref();
-        held.or_else(|| self.replay.event(self.place.events.checked_sub(1)?)).cloned()
+    /// The report whose lines and sets of faces are drawn.
+    fn source(&self) -> Option<&EventReport> {
+        shot::source(self.within.as_deref(), self.place.events, |event| self.replay.event(event))
+    }
+
+    /// The face that is seen at a place of a picture.
+    fn face(&self, place: Place, sight: &Sight, at: [f64; 2]) -> Result<Option<String>, String> {
+        if place != self.place {
+            return Err("this picture is of another place: try again when the right one is there".into());
+        }
+        Ok(self.replay.mesh().and_then(|mesh| camera::face_at(mesh, sight, at)))
     }
 
     fn go(&mut self, place: Place, line: &mut dyn Line) -> Result<(), String> {
@@ -270,9 +320,12 @@ impl Open {
         Ok(())
     }
 
-    fn run(&mut self, stops: &[Stop], line: &mut dyn Line) -> Result<(), String> {
-        self.within = None;
+    fn run(&mut self, from: usize, stops: &[Stop], line: &mut dyn Line) -> Result<(), String> {
         let end = self.replay.len();
+        if !self.seek(from.min(end), line) {
+            self.stand(line);
+            return Ok(());
+        }
         loop {
             if self.replay.step().is_none() {
                 line.tell(Told::Stopped("the end".into()));

@@ -21,8 +21,7 @@ use std::time::Duration;
 
 use compare::Comparer;
 
-pub(in crate::tui) use ask::{Ask, Hand, Opened, Recorded, Standing, Told};
-pub(in crate::tui) use camera::groups;
+pub(in crate::tui) use ask::{Ask, Frame, Hand, Opened, Recorded, Standing, Told};
 pub(in crate::tui) use desk::{Desk, Line};
 
 /// The screen's end.

@@ -53,8 +53,7 @@ pub enum Metric {
 
 impl Metric {
     /// All, the cheap ones first.
-    pub(crate) const ALL: [Self; 5] =
-        [Self::Tile, Self::Outliers, Self::Tone, Self::Displacement, Self::Structure];
+    pub const ALL: [Self; 5] = [Self::Tile, Self::Outliers, Self::Tone, Self::Displacement, Self::Structure];
 }
 
 impl fmt::Display for Metric {

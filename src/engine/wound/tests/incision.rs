@@ -1,11 +1,13 @@
 //! CI: what a wound looks like, cuts over cuts, and that undoing leaves no trace.
 
-use super::kit::{assert_sound, carved, cut, plate, run, sphere, state};
+use std::collections::BTreeMap;
+
+use super::kit::{applied, assert_sound, carved, cut, mode, plate, run, sphere, state};
 use crate::engine::wound::carve::opening::{cod_cm, depth_cm};
-use crate::engine::wound::{Pick, State, Wound, WoundEvent};
+use crate::engine::wound::{Mode, Pick, State, Wound, WoundEvent};
 use crate::engine::{Engine, Start};
-use crate::mesh::{IndexedMesh, Surface};
-use crate::report::{Buffer, Outcome};
+use crate::mesh::{FaceId, IndexedMesh, Surface};
+use crate::report::{Buffer, Outcome, Overlay};
 
 fn buffers(state: &State) -> Vec<Buffer> {
     Wound::buffers(state)
@@ -32,6 +34,38 @@ fn an_incision_is_as_wide_and_deep_as_its_length_asks() {
     assert_eq!((carved.narrowed, carved.shallowed), (0, 0));
     assert!(carved.gutter.iter().all(|&f| state.mesh.face(f).surface == Surface::Gutter));
     assert!((middle.s - length * 0.5).abs() < 1e-6 * length);
+}
+
+/// The sets of a group that a cut shows, by name.
+fn shown(state: &mut State, group: &str) -> BTreeMap<String, Vec<u32>> {
+    let event = WoundEvent::Cut { from: Pick::Pixel([290.0, 170.0]), to: Pick::Pixel([350.0, 190.0]) };
+    let Start::Run(mut work) = Wound::start(state, &event, 0) else { panic!("{event:?} does not start") };
+    applied(state, &mut work, &event);
+    let overlays = Wound::show(state, &work).overlays;
+    let sets = overlays.into_iter().filter(|overlay| overlay.group() == group);
+    sets.filter_map(|set| match set {
+        Overlay::Faces { name, faces } => Some((name, faces)),
+        _ => None,
+    })
+    .collect()
+}
+
+#[test]
+fn each_stage_shows_the_faces_that_it_worked_on() {
+    let mut state = state(&sphere(4));
+    let before = state.mesh.face_count() as u32;
+    let stages = shown(&mut state, "stage");
+    let of = |stage: &str| &stages[&format!("stage {stage}")];
+    assert_eq!(stages.len(), 5);
+    assert!(!of("FC").is_empty() && of("FC").iter().all(|face| *face < before && of("MC").contains(face)));
+    assert!(of("MC").iter().any(|face| *face >= before), "MC divides");
+    assert!(of("GP").iter().all(|face| of("PP").contains(face)) && of("GP").len() < of("PP").len());
+    let gutter = |face: &&u32| state.mesh.face(FaceId(**face)).surface == Surface::Gutter;
+    let all = (before..state.mesh.face_count() as u32).filter(|face| gutter(&face)).count();
+    assert_eq!((of("CI").iter().filter(gutter).count(), all > 0), (all, true));
+    mode(&mut state, Mode::Patch);
+    let stages = shown(&mut state, "stage");
+    assert!(stages["stage MC"].is_empty() && stages["stage CI"].is_empty() && !stages["stage FC"].is_empty());
 }
 
 #[test]

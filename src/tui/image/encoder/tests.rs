@@ -3,7 +3,6 @@ use std::sync::mpsc::{Receiver, channel};
 use ratatui::style::Color;
 
 use super::*;
-use crate::tui::image::blocks::Depth;
 
 const RED: [u8; 4] = [200, 0, 0, 255];
 const BLUE: [u8; 4] = [0, 0, 200, 255];
@@ -18,14 +17,14 @@ fn request(number: u64, colour: [u8; 4]) -> Request {
 
 fn drawn(encoded: &Encoded, area: Rect) -> Buffer {
     let mut buffer = Buffer::empty(Rect::new(0, 0, 10, 5));
-    encoded.render(area, &mut buffer);
+    encoded.draw(area, &mut buffer, false);
     buffer
 }
 
 #[test]
 fn half_blocks_show_the_picture_in_its_pane() {
-    let encoded = encode(&Medium::BLOCKS, &request(3, RED)).expect("a picture");
-    assert_eq!((encoded.number, encoded.area), (3, Size::new(6, 2)));
+    let encoded = encode(&request(3, RED)).expect("a picture");
+    assert_eq!((encoded.number(), encoded.area()), (3, Size::new(6, 2)));
     let buffer = drawn(&encoded, Rect::new(1, 1, 6, 2));
     let red = |x: u16, y: u16| buffer[(x, y)].bg == Color::Rgb(200, 0, 0);
     let painted = (0..5).flat_map(|y| (0..10).filter(move |x| red(*x, y))).count();
@@ -36,7 +35,7 @@ fn half_blocks_show_the_picture_in_its_pane() {
 #[test]
 fn two_pictures_meet_at_the_line() {
     let beside = Some((image(BLUE), 0.5));
-    let encoded = encode(&Medium::BLOCKS, &Request { beside, ..request(0, RED) }).expect("a picture");
+    let encoded = encode(&Request { beside, ..request(0, RED) }).expect("a picture");
     let buffer = drawn(&encoded, Rect::new(0, 0, 6, 2));
     let [red, white, blue] = [(200, 0, 0), (255, 255, 255), (0, 0, 200)].map(|(r, g, b)| Color::Rgb(r, g, b));
     let row: Vec<Color> = (0..6).map(|x| buffer[(x, 1)].bg).collect();
@@ -46,8 +45,8 @@ fn two_pictures_meet_at_the_line() {
 #[test]
 fn graphics_are_made_for_every_protocol_and_left_out_where_they_do_not_fit() {
     for (kind, begins) in [(Kind::Kitty, "\u{1b}_G"), (Kind::Sixel, "\u{1b}["), (Kind::Iterm2, "\u{1b}[")] {
-        let medium = Medium { kind, cell: [8, 16], depth: Depth::True };
-        let make = || encode(&medium, &request(0, RED)).expect("a picture");
+        let medium = Medium { kind, cell: [8, 16] };
+        let make = || encode(&Request { medium, ..request(0, RED) }).expect("a picture");
         let buffer = drawn(&make(), Rect::new(2, 1, 6, 2));
         let symbol = buffer[(2, 1)].symbol();
         assert!(symbol.starts_with(begins), "{kind:?}: {symbol:?}");
@@ -63,17 +62,17 @@ fn graphics_are_made_for_every_protocol_and_left_out_where_they_do_not_fit() {
 
 #[test]
 fn without_pictures_or_without_room_nothing_is_drawn() {
-    let none = Medium { kind: Kind::None, ..Medium::BLOCKS };
+    let none = Request { medium: Medium { kind: Kind::None, ..Medium::BLOCKS }, ..request(0, RED) };
     let blank = Buffer::empty(Rect::new(0, 0, 10, 5));
-    assert_eq!(drawn(&encode(&none, &request(0, RED)).expect("nothing"), Rect::new(0, 0, 6, 2)), blank);
+    assert_eq!(drawn(&encode(&none).expect("nothing"), Rect::new(0, 0, 6, 2)), blank);
     for (kind, area) in [Kind::Kitty, Kind::Sixel, Kind::Iterm2, Kind::Halfblocks]
         .into_iter()
         .flat_map(|kind| [(kind, Size::new(0, 3)), (kind, Size::new(3, 0)), (kind, Size::new(1, 1))])
     {
-        let medium = Medium { kind, cell: [8, 16], depth: Depth::True };
+        let medium = Medium { kind, cell: [8, 16] };
         for picture in [image(RED), Arc::new(Image::default())] {
-            let encoded = encode(&medium, &Request::whole(0, picture, area)).expect("something");
-            drawn(&encoded, Rect::new(9, 4, 40, 40));
+            let encoded = encode(&Request { medium, ..Request::whole(0, picture, area) });
+            drawn(&encoded.expect("something"), Rect::new(9, 4, 40, 40));
         }
     }
 }
@@ -83,7 +82,7 @@ fn started() -> (Encoder, Receiver<Encoded>) {
     let (sender, receiver) = channel();
     let done =
         move |made: Result<Encoded, String>| sender.send(made.expect("a picture")).expect("a receiver");
-    (Encoder::start(Medium::BLOCKS, done).expect("a thread"), receiver)
+    (Encoder::start(done).expect("a thread"), receiver)
 }
 
 #[test]
@@ -91,7 +90,7 @@ fn only_what_looks_different_is_made_again() {
     let (mut encoder, made) = started();
     let mut number = |request: Request| {
         let asked = encoder.ask(request);
-        asked.then(|| made.recv().expect("a picture").number)
+        asked.then(|| made.recv().expect("a picture").number())
     };
     assert_eq!(number(request(1, RED)), Some(1));
     assert_eq!(number(request(1, RED)), None);
@@ -108,10 +107,10 @@ fn what_is_overtaken_is_dropped() {
     let (sender, made) = channel();
     let (open, gate) = channel::<()>();
     let done = move |encoded: Result<Encoded, String>| {
-        sender.send(encoded.expect("a picture").number).expect("a receiver");
+        sender.send(encoded.expect("a picture").number()).expect("a receiver");
         gate.recv().expect("a word to go on");
     };
-    let mut encoder = Encoder::start(Medium::BLOCKS, done).expect("a thread");
+    let mut encoder = Encoder::start(done).expect("a thread");
     encoder.ask(request(1, RED));
     assert_eq!(made.recv(), Ok(1));
     // The thread waits at the gate: of these only the last is left when it comes back.
@@ -124,4 +123,13 @@ fn what_is_overtaken_is_dropped() {
     assert_eq!(made.recv(), Ok(5));
     drop(encoder);
     assert!(made.recv().is_err(), "the thread ends with its encoder");
+}
+
+#[test]
+fn what_is_covered_is_shown_in_half_blocks() {
+    let medium = Medium { kind: Kind::Sixel, cell: [8, 16] };
+    let encoded = encode(&Request { medium, ..request(0, RED) }).expect("a picture");
+    let mut buffer = Buffer::empty(Rect::new(0, 0, 10, 5));
+    encoded.draw(Rect::new(0, 0, 6, 2), &mut buffer, true);
+    assert_eq!(buffer, drawn(&encode(&request(0, RED)).expect("a picture"), Rect::new(0, 0, 6, 2)));
 }

@@ -1,12 +1,19 @@
 //! What keys, the mouse and a paste do to what lies over the panes.
 
+mod menu;
+mod paths;
 mod prompt;
+
+use std::path::{Path, PathBuf};
 
 use crossterm::event::MouseEvent;
 
+use crate::assets;
+use crate::report::printable;
 use crate::tui::key::Key;
 use crate::tui::model::Model;
-use crate::tui::popups::{Popup, Prompt, Question};
+use crate::tui::popups::{Menu, Popup, Prompt, Question, What};
+use crate::tui::worker::Ask;
 
 /// What becomes of a popup.
 enum Then {
@@ -33,22 +40,65 @@ fn put(model: &mut Model, prompt: Prompt) {
     model.popup = Some(Popup::Prompt(prompt));
 }
 
+/// Shows a list to choose from.
+pub(in crate::tui) fn choose(model: &mut Model, what: What) {
+    model.popup = Some(Popup::Menu(Menu::new(what)));
+}
+
+/// Where recordings are looked for.
+const RECORDINGS: &str = "recordings";
+
+/// Offers what can be opened.
+pub(in crate::tui) fn open(model: &mut Model) {
+    let (files, error) = match assets::list_files(Path::new(RECORDINGS)) {
+        Ok(files) => (files, None),
+        Err(error) => (Vec::new(), Some(error.to_string())),
+    };
+    let is_one = |path: &PathBuf| path.extension().is_some_and(|end| end == "lancet" || end == "json");
+    let files = files.into_iter().filter(is_one).collect();
+    model.popup = Some(Popup::Menu(Menu { error, ..Menu::new(What::Open(files)) }));
+}
+
+/// Opens the recording or script that was typed.
+fn open_path(model: &mut Model, text: &str) -> Result<(), String> {
+    let path = PathBuf::from(text.trim());
+    if !assets::is_file(&path) {
+        return Err(format!("{}: there is no such file", printable(path.display())));
+    }
+    model.ask(Ask::Open(path));
+    Ok(())
+}
+
+/// Leaves, unless something would be lost that nobody decided about.
+pub(in crate::tui) fn quit(model: &mut Model) {
+    match model.kept.unsaved {
+        true => choose(model, What::Leave),
+        false => model.done = true,
+    }
+}
+
 /// Gives a key to the popup. Whether there is one.
 pub(in crate::tui) fn key(model: &mut Model, key: Key) -> bool {
     change(model, |model, popup| match popup {
         Popup::Prompt(prompt) => prompt::key(model, prompt, key),
+        Popup::Menu(menu) => menu::key(model, menu, key),
     })
 }
 
 /// Gives an event of the mouse to the popup. Whether there is one.
-pub(in crate::tui) fn mouse(model: &mut Model, _event: MouseEvent) -> bool {
-    model.popup.is_some()
+pub(in crate::tui) fn mouse(model: &mut Model, event: MouseEvent) -> bool {
+    change(model, |model, popup| match popup {
+        // A question is answered by typing; a click beside it must not throw the answer away.
+        Popup::Prompt(_) => Then::Stay,
+        Popup::Menu(menu) => menu::mouse(model, menu, event),
+    })
 }
 
 /// Gives a pasted text to the popup. Whether there is one.
 pub(in crate::tui) fn paste(model: &mut Model, text: &str) -> bool {
     change(model, |model, popup| match popup {
         Popup::Prompt(prompt) => prompt::paste(model, prompt, text),
+        Popup::Menu(menu) => menu::paste(menu, text),
     })
 }
 
@@ -70,6 +120,7 @@ fn change(model: &mut Model, change: impl FnOnce(&mut Model, &mut Popup) -> Then
 fn under(popup: Popup) -> Option<Popup> {
     match popup {
         Popup::Prompt(prompt) => prompt.under.map(|under| *under),
+        Popup::Menu(_) => None,
     }
 }
 

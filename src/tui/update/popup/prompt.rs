@@ -1,30 +1,34 @@
 //! The keys of a question, and where its answer goes.
 
-use super::Then;
-use crate::assets;
+use super::{Then, paths};
+use crate::assets::builtin;
 use crate::tui::edit::Typed;
 use crate::tui::key::Key;
 use crate::tui::model::{Model, ran};
 use crate::tui::popups::{Prompt, Question};
-use crate::tui::update::{compare, record, search, step};
+use crate::tui::update::{compare, picture, record, search, step, stops};
 
 /// Does what was answered; an error says what is wrong with the answer.
 fn answer(model: &mut Model, question: Question, text: &str) -> Result<(), String> {
     match question {
         Question::GoTo => step::go_to(model, text),
-        Question::Scene => record::begin(model, text),
+        Question::Search => search::find(model, text),
+        Question::Stop => stops::add(model, text),
         Question::Checkpoint => record::checkpoint(model, text),
         Question::Event => record::event(model, text),
         Question::Save => record::save(model, text),
+        Question::SavePicture => picture::save(model, text),
+        Question::Scene => record::begin(model, text),
         Question::CompareWith => compare::with(model, text),
-        Question::Search => search::find(model, text),
-        other => Err(format!("{other:?} is not there yet")),
     }
 }
 
 pub(super) fn key(model: &mut Model, prompt: &mut Prompt, key: Key) -> Then {
     match key.to_string().as_str() {
-        "esc" => return Then::Close,
+        "esc" => {
+            model.leaving = false;
+            return Then::Close;
+        }
         "enter" => return enter(model, prompt),
         "up" | "ctrl-p" => recall(model, prompt, 1),
         "down" | "ctrl-n" => recall(model, prompt, -1),
@@ -84,13 +88,13 @@ fn recall(model: &Model, prompt: &mut Prompt, by: isize) {
 
 /// Types what all choices begin with, and then one after the other of them.
 fn complete(prompt: &mut Prompt, by: isize) {
-    if prompt.question.is_file() && prompt.chosen.is_none() {
-        match files(prompt.edit.text()) {
+    if prompt.question.is_file() && prompt.choices.is_empty() {
+        match paths::beginning(prompt.edit.text()) {
             Ok(files) => prompt.choices = files,
             Err(error) => prompt.error = Some(error),
         }
     }
-    let common = common(&prompt.choices);
+    let common = paths::common(&prompt.choices);
     if prompt.chosen.is_none() && common.len() > prompt.edit.text().len() {
         return prompt.edit.set(&common);
     }
@@ -109,10 +113,17 @@ pub(super) fn offer(model: &Model, prompt: &mut Prompt) {
     prompt.chosen = None;
     prompt.choices = match prompt.question {
         Question::GoTo => stages(model, prompt.edit.text()),
+        Question::Stop => stops::words(model),
+        Question::Scene => builtin::list().iter().map(|scene| scene_of(scene.name)).collect(),
         _ => Vec::new(),
     };
     let typed = prompt.edit.text();
     prompt.choices.retain(|choice| choice.starts_with(typed) && choice != typed);
+}
+
+/// How a built-in scene is named where scenes are typed; where it takes a number, up to that.
+pub(super) fn scene_of(name: &str) -> String {
+    format!("builtin:{}", name.strip_suffix('N').unwrap_or(name))
 }
 
 /// The stages of the event that was typed.
@@ -121,32 +132,4 @@ fn stages(model: &Model, text: &str) -> Vec<String> {
     let report = event.and_then(|event| model.report(event));
     let rows = report.into_iter().flat_map(|report| ran(report).into_iter().map(|row| &report.stages[row]));
     rows.map(|stage| format!("{}.{}", event.unwrap_or(0), stage.id)).collect()
-}
-
-/// The files and folders whose paths begin like this.
-fn files(text: &str) -> Result<Vec<String>, String> {
-    let (folder, name) = text.rsplit_once('/').map_or(("", text), |(folder, name)| (folder, name));
-    let (shown, looked) = match (text.contains('/'), folder) {
-        (false, _) => (String::new(), "."),
-        (true, "") => ("/".into(), "/"),
-        (true, folder) => (format!("{folder}/"), folder),
-    };
-    let entries = assets::list_folder(looked.as_ref()).map_err(|error| error.to_string())?;
-    let named = entries.iter().filter_map(|(path, is_folder)| {
-        let own = path.file_name()?.to_str()?;
-        let begins = own.starts_with(name) && (name.starts_with('.') || !own.starts_with('.'));
-        begins.then(|| format!("{shown}{own}{}", if *is_folder { "/" } else { "" }))
-    });
-    Ok(named.collect())
-}
-
-/// What all of them begin with.
-fn common(choices: &[String]) -> String {
-    let Some((first, others)) = choices.split_first() else { return String::new() };
-    let shared = |other: &String| {
-        let same = first.chars().zip(other.chars()).take_while(|(a, b)| a == b);
-        same.map(|(a, _)| a.len_utf8()).sum::<usize>()
-    };
-    let len = others.iter().map(shared).min().unwrap_or(first.len());
-    first[..len].to_owned()
 }

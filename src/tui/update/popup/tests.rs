@@ -72,7 +72,7 @@ fn paths_are_completed_folder_by_folder() {
         crate::assets::write_file(&folder.path().join(name), b"").expect("written");
     }
     let mut model = kit::model();
-    confirm(&mut model, Question::Open, &format!("{root}/cut"));
+    confirm(&mut model, Question::CompareWith, &format!("{root}/cut"));
     press(&mut model, "tab");
     assert_eq!(prompt(&model).edit.text(), format!("{root}/cuts/"));
     press(&mut model, "o tab");
@@ -82,7 +82,7 @@ fn paths_are_completed_folder_by_folder() {
         prompt(&model).edit.text().trim_start_matches(&root).to_owned()
     });
     assert_eq!(seen, ["/cuts/one.lancet", "/cuts/only.lancet", "/cuts/one.lancet", "/cuts/only.lancet"]);
-    confirm(&mut model, Question::Open, &format!("{root}/nowhere/x"));
+    confirm(&mut model, Question::CompareWith, &format!("{root}/nowhere/x"));
     press(&mut model, "tab");
     assert!(prompt(&model).error.as_deref().is_some_and(|error| error.contains("nowhere")));
 }
