@@ -64,7 +64,7 @@ fn report(bytes: &[u8]) -> Result<Option<RunReport>, String> {
 }
 
 /// How two runs differ.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Diff {
     /// What the recordings say differently first, where both are known.
     #[serde(default, skip_serializing_if = "Option::is_none")]

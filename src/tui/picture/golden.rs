@@ -6,7 +6,7 @@ use super::{Beheld, PictureState};
 use crate::canvas::image::Image;
 use crate::tui::compare;
 use crate::tui::model::Model;
-use crate::verify::{self, ComparedPicture};
+use crate::verify::ComparedPicture;
 
 /// How it is shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -55,8 +55,13 @@ pub(in crate::tui) struct Beside {
 }
 
 impl Beside {
-    fn is_of(&self, golden: &Arc<Image>, actual: &Arc<Image>) -> bool {
-        Arc::ptr_eq(&self.golden, golden) && Arc::ptr_eq(&self.actual, actual)
+    fn of(picture: &ComparedPicture, number: u64) -> Option<Self> {
+        let (golden, difference) = (picture.golden.clone()?, picture.difference.clone()?);
+        Some(Self { number, golden, actual: Arc::clone(&picture.actual), difference })
+    }
+
+    fn is_the_same(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.golden, &other.golden) && Arc::ptr_eq(&self.actual, &other.actual)
     }
 }
 
@@ -70,19 +75,12 @@ pub(in crate::tui) fn follow(model: &mut Model) {
     if model.picture.golden == Golden::Off {
         return;
     }
-    let pair = compared(model).and_then(|picture| Some((picture.golden.as_ref()?, &picture.actual)));
-    let before = model.picture.beside.as_ref();
-    model.picture.beside = match (pair, before) {
-        (None, _) => None,
-        (Some((golden, actual)), Some(before)) if before.is_of(golden, actual) => return,
-        (Some((golden, actual)), _) => Some(Beside {
-            number: model.picture.goldens + 1,
-            golden: Arc::clone(golden),
-            actual: Arc::clone(actual),
-            difference: Arc::new(verify::difference(golden, actual)),
-        }),
-    };
-    model.picture.goldens += 1;
+    let (number, before) = (model.picture.goldens + 1, model.picture.beside.as_ref());
+    let now = compared(model).and_then(|picture| Beside::of(picture, number));
+    if now.as_ref().zip(before).is_none_or(|(now, before)| !now.is_the_same(before)) {
+        model.picture.goldens += u64::from(now.is_some());
+        model.picture.beside = now;
+    }
 }
 
 /// What is to be seen of it.

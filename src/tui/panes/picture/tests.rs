@@ -11,6 +11,7 @@ use crate::tui::picture::request;
 use crate::tui::screen::to_text;
 use crate::tui::shot::{Drawn, Shot, Sight};
 use crate::tui::update::kit;
+use crate::verify::{ComparedPicture, Diff};
 
 fn model() -> Model {
     let mut model = kit::model();
@@ -109,12 +110,15 @@ fn differences(golden: [u8; 4], actual: [u8; 4]) -> Differences {
         proven_by: "any".into(),
         proof: Default::default(),
     };
-    let picture = crate::verify::ComparedPicture {
+    let picture = ComparedPicture {
         checkpoint: "end".into(),
         event: 2,
         golden: Some(of(golden)),
         actual: of(actual),
+        difference: Some(of([255; 4])),
         report,
     };
-    crate::tui::compare::tests::with_pictures(With::Goldens, vec![picture])
+    let mut differences = Differences::from_run(With::Goldens, Diff::default());
+    differences.pictures.push(picture);
+    differences
 }
