@@ -61,7 +61,7 @@ fn layer(letter: char, text: &[char], before: Option<&[Best]>, anywhere: bool) -
             None => Some((0, None)),
             Some(_) => far,
         };
-        let start = start.filter(|_| anywhere || begins).map(|(score, from)| (score, from));
+        let start = start.filter(|_| anywhere || begins);
         let follows = near.map(|(score, at)| (score + ADJACENT, Some(at)));
         let best = [start, follows].into_iter().flatten().max_by_key(|(score, _)| *score);
         far = far.max(near.map(|(score, at)| (score, Some(at))));

@@ -34,8 +34,6 @@ pub mod screen;
 mod shot;
 mod stage;
 mod status;
-#[cfg(test)]
-mod suite;
 mod tabs;
 pub mod terminal;
 #[cfg(test)]

@@ -33,3 +33,17 @@ pub(super) fn blend(texel: &mut [u8; 4], colour: [u8; 3], share: u8) {
         *value = ((u32::from(*value) * (255 - share) + u32::from(over) * share + 127) / 255) as u8;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn strokes_that_cross_do_not_add_up_and_the_stronger_one_stays() {
+        let mut ink = Ink::none([3, 1]);
+        [(0, 51), (0, 51), (1, 255), (1, 51)].into_iter().for_each(|(at, share)| ink.ask(at, share));
+        let mut image = Image::filled([3, 1], [100, 0, 0, 7]);
+        ink.lay(&mut image, [0, 0, 100]);
+        assert_eq!(image.texels, [[80, 0, 20, 7], [0, 0, 100, 7], [100, 0, 0, 7]]);
+    }
+}

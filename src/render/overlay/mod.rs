@@ -102,10 +102,20 @@ pub fn draw_supersampled(image: &mut Image, view: &View, mesh: &Mesh, drawings: 
     }
 }
 
-/// Half the widths of lines and of points in pixels.
-fn radii(factor: u32) -> [i64; 2] {
-    let factor = i64::from(factor.clamp(1, 16));
-    [factor / 2, factor + 2]
+/// Half the widths of strokes in pixels.
+#[derive(Clone, Copy)]
+struct Radii {
+    line: i64,
+    /// Of the lines of what is selected: a face of a few pixels has to be found too.
+    mark: i64,
+    point: i64,
+}
+
+impl Radii {
+    fn new(factor: u32) -> Self {
+        let factor = i64::from(factor.clamp(1, 16));
+        Self { line: factor / 2, mark: factor / 2 + 1, point: factor + 2 }
+    }
 }
 
 /// The pixels of a disc around one.

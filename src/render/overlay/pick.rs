@@ -51,7 +51,8 @@ fn copies(corners: [Vec2; 3], at: [f64; 2]) -> impl Iterator<Item = DVec2> {
         let values = corners.map(|c| f64::from(c[k]));
         let (least, most) = values.iter().fold((values[0], values[0]), |(l, m), v| (l.min(*v), m.max(*v)));
         let [first, last] = [(least - at[k]).ceil() as i64, (most - at[k]).floor() as i64];
-        if within { first..=last.min(first + COPIES) } else { 1..=0 }
+        let last = if within { last.min(first + COPIES) } else { first - 1 };
+        first..=last
     });
     let [across, up] = shifts;
     across.flat_map(move |i| up.clone().map(move |j| dvec2(at[0] + i as f64, at[1] + j as f64)))

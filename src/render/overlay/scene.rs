@@ -10,7 +10,7 @@ use rustc_hash::FxHashSet;
 
 use super::ink::blend;
 use super::marked::Marked;
-use super::{Ink, chart_colours, disc, radii, share};
+use super::{Ink, Radii, chart_colours, disc, share};
 use crate::canvas::frame::View;
 use crate::canvas::image::Image;
 use crate::mesh::{FaceId, Mesh};
@@ -48,14 +48,13 @@ pub(super) struct Scene<'a> {
     mesh: &'a Mesh,
     lens: Lens,
     nearest: Vec<Nearest>,
-    /// Half the widths of lines and points.
-    radii: [i64; 2],
+    radii: Radii,
 }
 
 impl<'a> Scene<'a> {
     pub(super) fn new(view: &View, mesh: &'a Mesh, factor: u32) -> Self {
         let lens = Lens::of_view(view);
-        Self { mesh, lens, nearest: nearest(mesh, &lens), radii: radii(factor) }
+        Self { mesh, lens, nearest: nearest(mesh, &lens), radii: Radii::new(factor) }
     }
 
     /// The edges of the faces that are seen, fainter where these are too small to be told apart.
@@ -72,7 +71,7 @@ impl<'a> Scene<'a> {
         let mut ink = self.ink();
         for edge in edges {
             let ends = self.mesh.edge(edge).nodes.map(|n| self.mesh.position(n));
-            self.stroke(ends, |at, seen| ink.ask(at, if seen { share } else { 0 }));
+            self.stroke(ends, self.radii.line, |at, seen| ink.ask(at, if seen { share } else { 0 }));
         }
         ink
     }
@@ -104,7 +103,9 @@ impl<'a> Scene<'a> {
         let mut ink = self.ink();
         for ends in points.windows(2) {
             let ends = [ends[0], ends[1]].map(DVec3::from);
-            self.stroke(ends, |at, seen| ink.ask(at, if seen { share::FULL } else { 0 }));
+            self.stroke(ends, self.radii.line, |at, seen| {
+                ink.ask(at, if seen { share::FULL } else { 0 });
+            });
         }
         ink
     }
@@ -127,7 +128,7 @@ impl<'a> Scene<'a> {
         let outline = sides.filter(|edge| marked.is_outline(&self.mesh.edge(*edge)));
         for edge in outline.chain(marked.edges.iter().copied()) {
             let ends = self.mesh.edge(edge).nodes.map(|n| self.mesh.position(n));
-            self.stroke(ends, |at, seen| ink.ask(at, line(seen)));
+            self.stroke(ends, self.radii.mark, |at, seen| ink.ask(at, line(seen)));
         }
         for node in marked.all_nodes(self.mesh) {
             self.dot(self.mesh.position(node), |at, seen| ink.ask(at, line(seen)));
@@ -159,7 +160,7 @@ impl<'a> Scene<'a> {
     }
 
     /// Tells of each pixel of a line, and whether it is seen.
-    fn stroke(&self, ends: [DVec3; 2], mut each: impl FnMut(usize, bool)) {
+    fn stroke(&self, ends: [DVec3; 2], radius: i64, mut each: impl FnMut(usize, bool)) {
         let Some([a, b]) = self.before_the_eye(ends.map(|p| self.lens.see(p))) else { return };
         let (Some(p), Some(q)) = (self.lens.place(a), self.lens.place(b)) else { return };
         let Some([from, to]) = self.within(p, q) else { return };
@@ -168,7 +169,7 @@ impl<'a> Scene<'a> {
         for step in 0..=steps as u32 {
             let t = from + (to - from) * (f64::from(step) / steps);
             let place = [p[0] + (q[0] - p[0]) * t, p[1] + (q[1] - p[1]) * t];
-            self.blot(place, near + (far - near) * t, self.radii[0], &mut each);
+            self.blot(place, near + (far - near) * t, radius, &mut each);
         }
     }
 
@@ -176,7 +177,7 @@ impl<'a> Scene<'a> {
     fn dot(&self, point: DVec3, mut each: impl FnMut(usize, bool)) {
         let seen = self.lens.see(point);
         if let Some(place) = self.lens.place(seen).filter(|_| seen.z >= self.lens.near) {
-            self.blot(place, 1.0 / seen.z, self.radii[1], &mut each);
+            self.blot(place, 1.0 / seen.z, self.radii.point, &mut each);
         }
     }
 

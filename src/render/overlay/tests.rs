@@ -109,15 +109,16 @@ fn charts_that_touch_have_different_colours() {
     let image = drawn(&[Drawing::Charts]);
     assert_eq!(image.at(2, 2), BLANK);
     assert_ne!(image.at(40, 30), image.at(25, 30));
-    // A fan of nine triangles round a point, none of which shares a vertex with the next, and a tenth that touches nothing.
-    let turn = |i: u32| libm::sincos(f64::from(i) * 0.6);
+    // Nine triangles in a ring round a point, none of which shares a vertex with the next, and a tenth that touches nothing: the ninth
+    // would have the first one's colour by its number.
+    let turn = |i: u32| libm::sincos(f64::from(i) * std::f64::consts::TAU / 9.0);
     let rim = (0..9).map(turn).map(|(s, c)| DVec3::new(c, s, 0.0));
     let away = [5.0, 6.0, 7.0].map(|x| DVec3::new(x, x * x, 0.0));
-    let faces: Vec<[u32; 3]> = (0..8).map(|i| [0, i + 1, i + 2]).chain([[10, 11, 12]]).collect();
-    let uvs: Vec<Vec2> = (0..27).map(|i| Vec2::new(i as f32, (i * i) as f32)).collect();
+    let faces: Vec<[u32; 3]> = (0..9).map(|i| [0, i + 1, (i + 1) % 9 + 1]).chain([[10, 11, 12]]).collect();
+    let uvs: Vec<Vec2> = (0..30).map(|i| Vec2::new(i as f32, (i * i) as f32)).collect();
     let fan = IndexedMesh {
         positions: [DVec3::ZERO].into_iter().chain(rim).chain(away).collect(),
-        face_uvs: (0..9).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
+        face_uvs: (0..10).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
         faces,
         uvs,
         ..IndexedMesh::default()
@@ -125,7 +126,7 @@ fn charts_that_touch_have_different_colours() {
     let fan = Mesh::build(&fan).expect("a fan");
     let colours = chart_colours(&fan);
     let pairs = fan.edges().iter().filter(|e| !e.is_boundary()).map(|e| e.faces);
-    assert_eq!(pairs.clone().count(), 7);
+    assert_eq!(pairs.clone().count(), 9);
     assert!(pairs.into_iter().all(|[a, b]| colours[a.at()] != colours[b.at()]));
 }
 
@@ -147,8 +148,8 @@ fn marked_edges_and_nodes_are_found_even_behind_a_face() {
     let marks = ids(&[&format!("e{}", diagonal.expect("the larger square's diagonal"))]);
     let image = drawn(&[Drawing::Marked(&marks)]);
     assert!((28..32).any(|x| image.at(x, 40)[..3] == MARK));
-    let behind = image.at(40, 30);
-    assert!(behind != BLANK && behind[..3] != MARK, "{behind:?}");
+    let behind: Vec<_> = (35..45).map(|x| image.at(x, 30)).filter(|texel| *texel != BLANK).collect();
+    assert!(!behind.is_empty() && behind.iter().all(|texel| texel[..3] != MARK), "{behind:?}");
     let [node, vertex] = ["n1", "v1"].map(|id| drawn(&[Drawing::Marked(&ids(&[id]))]));
     assert!(changed(&node) > 9);
     assert_eq!(node, vertex, "a vertex is where its node is");
@@ -182,7 +183,7 @@ fn the_face_at_a_pixel_is_the_one_that_is_seen_there() {
 fn on_a_map_v_goes_up_and_seams_are_stronger() {
     let lower = mapped(&[Drawing::Marked(&ids(&["f0"]))]);
     assert!(lower.at(12, 12) != BLANK && lower.at(3, 3) == BLANK, "f0 lies below the diagonal");
-    assert!((16..32).all(|x| (0..16).all(|y| lower.at(x, y) == BLANK || x == 16)));
+    assert!((18..31).all(|x| (0..16).all(|y| lower.at(x, y) == BLANK)), "and on the left half");
     let wire = mapped(&[Drawing::Wire]);
     let darkness = |x: u32, y: u32| wire.at(x, y)[2];
     assert!(darkness(8, 0) > darkness(8, 7).max(darkness(8, 8)), "the border of a chart, and its diagonal");

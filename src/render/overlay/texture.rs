@@ -6,7 +6,7 @@
 use glam::{DVec2, Vec2, dvec2};
 
 use super::marked::Marked;
-use super::{Drawing, FACES, Ink, LINE, MARK, WIRE, chart_colours, disc, radii, share};
+use super::{Drawing, FACES, Ink, LINE, MARK, Radii, WIRE, chart_colours, disc, share};
 use crate::canvas::image::Image;
 use crate::mesh::{Edge, EdgeId, Face, FaceId, Mesh, NodeId, Surface, VertexId};
 use crate::render::overlay::ink::blend;
@@ -21,7 +21,7 @@ pub fn draw_uv(image: &mut Image, mesh: &Mesh, drawings: &[Drawing<'_>]) {
     if !mesh.is_textured() || image.texels.is_empty() {
         return;
     }
-    let sheet = Sheet { mesh, size: image.size };
+    let sheet = Sheet { mesh, size: image.size, radii: Radii::new(1) };
     let mut colours = FACES.iter().cycle();
     for drawing in drawings {
         match drawing {
@@ -40,6 +40,7 @@ pub fn draw_uv(image: &mut Image, mesh: &Mesh, drawings: &[Drawing<'_>]) {
 struct Sheet<'a> {
     mesh: &'a Mesh,
     size: [u32; 2],
+    radii: Radii,
 }
 
 impl Sheet<'_> {
@@ -53,7 +54,7 @@ impl Sheet<'_> {
             let whole = self.is_whole(edge);
             let share = if whole { faint } else { share::SEAM };
             let sides = if whole { &edge.faces[..1] } else { &edge.faces[..] };
-            self.edge(EdgeId::of(i), sides, |at| ink.ask(at, share));
+            self.edge(EdgeId::of(i), sides, self.radii.line, |at| ink.ask(at, share));
         }
         ink
     }
@@ -88,12 +89,12 @@ impl Sheet<'_> {
             for id in self.mesh.face(face).edges {
                 let edge = self.mesh.edge(id);
                 if marked.is_outline(&edge) || !self.is_whole(&edge) {
-                    self.edge(id, &[face], |at| ink.ask(at, share::FULL));
+                    self.edge(id, &[face], self.radii.mark, |at| ink.ask(at, share::FULL));
                 }
             }
         }
         for &edge in &marked.edges {
-            self.edge(edge, &self.mesh.edge(edge).faces, |at| ink.ask(at, share::FULL));
+            self.edge(edge, &self.mesh.edge(edge).faces, self.radii.mark, |at| ink.ask(at, share::FULL));
         }
         let of_nodes = marked.nodes.iter().flat_map(|node| self.vertices(*node));
         for vertex in of_nodes.chain(marked.vertices.iter().copied()) {
@@ -122,11 +123,11 @@ impl Sheet<'_> {
     }
 
     /// Tells of the texels of an edge, as these of its faces have it.
-    fn edge(&self, edge: EdgeId, faces: &[FaceId], mut each: impl FnMut(usize)) {
+    fn edge(&self, edge: EdgeId, faces: &[FaceId], radius: i64, mut each: impl FnMut(usize)) {
         for face in faces.iter().filter_map(|face| self.skin(*face)) {
             if let Some(side) = face.side(edge) {
                 let ends = [side, (side + 1) % 3].map(|corner| self.mesh.vertex(face.vertices[corner]).uv);
-                self.stroke(ends, &mut each);
+                self.stroke(ends, radius, &mut each);
             }
         }
     }
@@ -144,21 +145,26 @@ impl Sheet<'_> {
         within.then(|| dvec2(f64::from(uv.x) * w, (1.0 - f64::from(uv.y)) * h))
     }
 
-    fn stroke(&self, ends: [Vec2; 2], mut each: impl FnMut(usize)) {
+    fn stroke(&self, ends: [Vec2; 2], radius: i64, mut each: impl FnMut(usize)) {
         let [Some(p), Some(q)] = ends.map(|uv| self.place(uv)) else { return };
         let steps = (q - p).abs().max_element().ceil().max(1.0);
         if steps > COPIES as f64 * self.size[0].max(self.size[1]) as f64 {
             return;
         }
         for step in 0..=steps as u32 {
-            each(self.wrapped(p.lerp(q, f64::from(step) / steps).floor().to_array().map(|v| v as i64)));
+            self.blot(p.lerp(q, f64::from(step) / steps), radius, &mut each);
         }
     }
 
-    fn dot(&self, uv: Vec2, each: impl FnMut(usize)) {
-        let Some(at) = self.place(uv) else { return };
+    fn dot(&self, uv: Vec2, mut each: impl FnMut(usize)) {
+        if let Some(at) = self.place(uv) {
+            self.blot(at, self.radii.point, &mut each);
+        }
+    }
+
+    fn blot(&self, at: DVec2, radius: i64, each: &mut impl FnMut(usize)) {
         let middle = at.floor().to_array().map(|v| v as i64);
-        disc(middle, radii(1)[1]).map(|texel| self.wrapped(texel)).for_each(each);
+        disc(middle, radius).map(|texel| self.wrapped(texel)).for_each(each);
     }
 
     fn wrapped(&self, [x, y]: [i64; 2]) -> usize {

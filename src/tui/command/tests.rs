@@ -9,7 +9,7 @@ use crate::cli::{Status, flags, parses};
 use crate::report::{EventReport, RunReport};
 use crate::tui::action::ACTIONS;
 use crate::tui::shot::Drawn;
-use crate::tui::suite::{Screen, Suite, lancet};
+use crate::tui::tests::suite::{Screen, Suite, lancet};
 use crate::tui::{key::Key, update};
 use crate::verify::{Diff, VerifyReport};
 
@@ -270,7 +270,7 @@ fn the_copied_command_draws_what_the_screen_draws() {
             let (status, _, err) = run(&[words, vec![at.clone()]].concat());
             assert_eq!(status, Status::Verified, "{err}");
             let file = crate::assets::read_png(&std::fs::read(&at).expect("written")).expect("a picture");
-            assert!(file == got.image, "{place:?} {subject:?}");
+            assert!(file == *got.image, "{place:?} {subject:?}");
         }
     }
 }

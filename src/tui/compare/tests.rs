@@ -4,9 +4,14 @@ use super::*;
 use crate::canvas::image::Image;
 use crate::tui::action::Action;
 use crate::tui::model::Pane;
-use crate::tui::suite::{Screen, Suite, lancet};
+use crate::tui::tests::suite::{Screen, Suite, lancet};
 use crate::tui::update;
 use crate::verify::ImageVerdict;
+
+/// A comparison that came to these pictures, and nothing else.
+pub(in crate::tui) fn with_pictures(with: With, pictures: Vec<ComparedPicture>) -> Differences {
+    Differences::new(with, std::iter::empty(), Vec::new(), 0, pictures)
+}
 
 const RUN: &str = "golden/square/_run.txt";
 
@@ -100,7 +105,8 @@ fn what_was_not_compared_yet_is_compared_before_going_to_the_first_divergence() 
 fn an_element_that_differs_is_selected_everywhere() {
     let suite = Suite::new();
     let planted = suite.text("planted.json");
-    std::fs::write(&planted, crate::tui::suite::SQUARE.replace("[60, 55]", "[60, 56]")).expect("written");
+    std::fs::write(&planted, crate::tui::tests::suite::SQUARE.replace("[60, 55]", "[60, 56]"))
+        .expect("written");
     let mut screen = suite.screen();
     update::compare::with(screen.model(), &planted).expect("it is there");
     screen.0.settle();
@@ -144,7 +150,7 @@ fn what_cannot_be_compared_is_told() {
     screen.act(Action::Compare);
     let (said, wrong) = screen.said();
     assert!(wrong && said.starts_with("not compared: ") && said.contains("gates.json: "), "{said}");
-    assert!(screen.0.model.differences.is_none() && !screen.0.model.is_busy());
+    assert!(screen.0.model.differences.is_none() && screen.0.model.comparing.is_none());
     let mut nothing = Model::default();
     update::act(&mut nothing, Action::Compare);
     assert_eq!(nothing.message.map(|message| message.text), Some("nothing is open".into()));
@@ -172,9 +178,9 @@ fn a_comparison_that_was_stopped_or_overtaken_is_not_shown() {
     let suite = Suite::new();
     let mut screen = suite.screen();
     update::act(screen.model(), Action::Compare);
-    assert!(screen.0.model.is_busy());
+    assert!(screen.0.model.comparing.is_some());
     update::act(screen.model(), Action::Cancel);
-    assert_eq!((screen.said().0, screen.0.model.is_busy()), ("not compared: stopped", false));
+    assert_eq!((screen.said().0, screen.0.model.comparing.is_some()), ("not compared: stopped", false));
     screen.0.settle();
     assert!(screen.0.model.differences.is_none(), "it came too late");
 }

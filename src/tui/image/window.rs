@@ -211,10 +211,9 @@ mod tests {
     fn the_way_back_is_the_way_there() {
         each_fit(|fit| {
             let mut there = 0;
-            for (x, y) in
-                (0..20).flat_map(|x| (0..20).map(move |y| (f64::from(x) / 20.0, f64::from(y) / 20.0)))
-            {
-                let point = [x * f64::from(fit.pane[0]), y * f64::from(fit.pane[1])];
+            for (x, y) in (0..21).flat_map(|x| (0..21).map(move |y| (x, y))) {
+                let point =
+                    [(0, x), (1, y)].map(|(k, at)| f64::from(fit.pane[k]) * (f64::from(at) + 0.5) / 21.0);
                 let Some(at) = fit.to_picture(point) else { continue };
                 there += 1;
                 let back = fit.to_pane(at).expect("what lies in the pane");
@@ -288,7 +287,7 @@ mod tests {
 
     #[test]
     fn a_reduced_pixel_is_the_mean_of_its_box() {
-        let bands = |x: u32| if x % 3 == 0 { [90, 0, 255, 9] } else { [0, 30, 255, 0] };
+        let bands = |x: u32| if x.is_multiple_of(3) { [90, 0, 255, 9] } else { [0, 30, 255, 0] };
         let image = Image { size: [12, 6], texels: (0..72).map(|i| bands(i % 12)).collect() };
         assert_eq!(crop(&image, &Window::default(), [4, 2]).texels, [[30, 20, 255, 255]; 8]);
         // 2.5 of the picture's for one: half of a pixel counts half.

@@ -23,9 +23,10 @@ use crate::tui::record::{Kept, Recorder};
 use crate::tui::worker::{Ask, Opened, Standing};
 
 /// A part of the screen that can be focused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(in crate::tui) enum Pane {
     /// The events.
+    #[default]
     Timeline,
     /// The stages of the event that is shown.
     Stages,
@@ -180,12 +181,6 @@ pub(in crate::tui) struct Pace(pub(in crate::tui) Duration);
 impl Default for Pace {
     fn default() -> Self {
         Self(Duration::from_millis(500))
-    }
-}
-
-impl Default for Pane {
-    fn default() -> Self {
-        Self::Timeline
     }
 }
 

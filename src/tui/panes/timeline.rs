@@ -21,7 +21,7 @@ use super::{rows, words};
 use crate::report::{EventReport, Outcome};
 use crate::tui::model::{Model, Pane, Place};
 use crate::tui::theme::{Role, Theme};
-use crate::tui::{text, update};
+use crate::tui::{compare, text, update};
 
 /// From this width on there is a column of times.
 const WITH_TIMES: usize = 34;
@@ -35,6 +35,10 @@ pub(super) fn len(model: &Model) -> usize {
 
 /// How many of each outcome there are.
 pub(super) fn about(model: &Model) -> String {
+    // Where a value differs, both are told.
+    if let Some(value) = model.place.event().and_then(|event| compare::marks(model, event)) {
+        return format!("≠ expected {}, found {}", value.expected, value.found);
+    }
     let count = |outcome| model.reports.iter().filter(|report| report.outcome == outcome).count();
     let (applied, rejected) = (count(Outcome::Applied), count(Outcome::Rejected));
     match (applied, rejected) {

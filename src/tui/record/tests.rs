@@ -267,7 +267,6 @@ fn a_cell_of_the_picture_is_the_position_that_is_seen_in_it() {
     for cell in area.positions() {
         let before = lines(&mut stage).len();
         let Some(at) = cross::position(stage.model(), cell) else { continue };
-        assert_eq!(cross::out_of_sight(stage.model(), at), None, "{cell:?} {at:?}");
         clicked += 1;
         if clicked % 50 == 1 {
             assert!(record::clicked(stage.model(), cell));

@@ -2,6 +2,7 @@
 
 mod keys;
 mod screens;
+pub(in crate::tui) mod suite;
 
 use std::path::Path;
 

@@ -159,7 +159,7 @@ mod tests {
         let mut model = kit::model();
         kit::report_all(&mut model);
         add(&mut model, "rejected=miss").expect("a breakpoint");
-        let mut play = |model: &mut Model| {
+        let play = |model: &mut Model| {
             act(model, Action::Play);
             while model.playing.is_some() {
                 beat(model);

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::tui::action::Action;
-use crate::tui::suite::{Screen, Suite};
+use crate::tui::tests::suite::{Screen, Suite};
 use crate::tui::{panes, screen};
 
 /// The pane's lines at a size.

@@ -121,7 +121,9 @@ fn the_wheel_enlarges_what_is_under_the_pointer_and_shift_moves_it() {
         picture::fit(model).and_then(|fit| fit.to_share(point)).expect("on the picture")
     };
     let before = under(&model);
-    (0..5).for_each(|_| drop(mouse(&mut model, at(MouseEventKind::ScrollUp, x, y))));
+    for _ in 0..5 {
+        mouse(&mut model, at(MouseEventKind::ScrollUp, x, y));
+    }
     assert!(model.picture.window.zoom > 2.5);
     assert!((0..2).all(|k| (under(&model)[k] - before[k]).abs() < 1e-6));
     let shifted = |kind, column| MouseEvent { modifiers: KeyModifiers::SHIFT, ..at(kind, column, y) };
