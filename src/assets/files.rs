@@ -138,6 +138,45 @@ mod tests {
     }
 
     #[test]
+    fn the_newest_files_come_first_and_are_removed_once_or_twice() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        for (seconds, name) in [(3, "c"), (1, "a"), (2, "b"), (4, "below/d")] {
+            write_file(&at(name), b"x").expect("written");
+            let file = fs::File::options().write(true).open(at(name)).expect("it is there");
+            let time = std::time::UNIX_EPOCH + std::time::Duration::from_secs(seconds);
+            file.set_modified(time).expect("a time");
+        }
+        assert_eq!(newest_files(folder.path()).expect("listed"), [at("c"), at("b"), at("a")]);
+        (0..2).for_each(|_| remove_file(&at("b")).expect("removed"));
+        assert_eq!(newest_files(folder.path()).expect("listed"), [at("c"), at("a")]);
+        assert!(remove_file(&at("below")).is_err(), "a folder is no file");
+        assert!(newest_files(&at("nowhere")).expect("none").is_empty());
+    }
+
+    #[test]
+    fn a_scene_is_found_from_wherever_a_recording_is_moved() {
+        let scene = SceneRef::Mesh("../meshes/head.obj".into());
+        let moved = |from: &str, to: &str| moved(&scene, Path::new(from), Path::new(to)).expect("a folder");
+        assert_eq!(moved("/a/cuts", "/a/new/x.lancet"), scene);
+        assert_eq!(moved("/a/cuts", "/b/x.lancet"), SceneRef::Mesh("../a/meshes/head.obj".into()));
+        assert_eq!(moved("", "x.lancet"), scene, "here is here");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_real_folder_has_no_links_and_is_there() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let real = real_folder(&folder.path().join("far/away")).expect("made");
+        assert!(real.is_dir());
+        let link = folder.path().join("link");
+        std::os::unix::fs::symlink(&real, &link).expect("a link");
+        assert_eq!(real_folder(&link).expect("there"), real);
+        write_file(&folder.path().join("file"), b"x").expect("written");
+        assert!(real_folder(&folder.path().join("file")).is_err());
+    }
+
+    #[test]
     fn errors_name_the_file() {
         let folder = tempfile::tempdir().expect("a folder");
         let missing = folder.path().join("missing");

@@ -34,7 +34,8 @@ pub(super) fn run(typed: &Tui, console: &mut Console<'_>) -> Done {
         renderer: pixels::choice(typed.renderer),
         compare: compare(typed),
         budget_bytes: (typed.budget as usize) << 20,
-        drafts: Drafts::from_environment(),
+        // What is written depends on nothing that was left behind, and leaves nothing behind.
+        drafts: if typed.screen.is_some() { Drafts::default() } else { Drafts::from_environment() },
         config,
     };
     if let Some(target) = &typed.screen {

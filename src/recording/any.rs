@@ -171,3 +171,26 @@ impl AnyRecording {
 fn line<E: Event>(event: &E) -> String {
     serde_json::to_string(event).unwrap_or_else(|error| format!("{}: {error}", event.kind()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recording::{Script, VIEWPORT};
+
+    #[test]
+    fn a_recording_that_begins_is_a_script_without_events() {
+        let scene = SceneRef::typed("builtin:bust");
+        let begun = AnyRecording::begin(ENGINES[0], scene.clone(), VIEWPORT).expect("an engine");
+        let script = br#"{ "version": 1, "scene": "builtin:bust", "events": [] }"#;
+        assert_eq!(&begun, Script::parse(script).expect("a script").unhashed());
+        assert!(AnyRecording::begin("none", scene.clone(), VIEWPORT).is_err());
+        assert!(AnyRecording::begin(ENGINES[0], scene, [0, 1]).is_err());
+    }
+
+    #[test]
+    fn a_scene_is_typed_by_its_name_or_its_files() {
+        assert_eq!(SceneRef::typed("builtin:bust"), SceneRef::Builtin("bust".into()));
+        assert_eq!(SceneRef::typed("a/Scene.JSON"), SceneRef::File("a/Scene.JSON".into()));
+        assert_eq!(SceneRef::typed("a/head.obj"), SceneRef::Mesh("a/head.obj".into()));
+    }
+}

@@ -16,6 +16,7 @@ use crate::tui::image::encoder::{Encoded, Request};
 use crate::tui::image::protocol::Medium;
 use crate::tui::image::window::{Fit, Window};
 use crate::tui::model::{Model, Pane, Place};
+use crate::tui::record::cross;
 use crate::tui::shot::{self, Drawn, Picture, Shot, Subject};
 use crate::tui::view;
 use golden::{Beside, Golden};
@@ -162,7 +163,8 @@ pub(in crate::tui) fn request(model: &Model) -> Option<Request> {
     let PictureState { medium, window, .. } = model.picture;
     let (number, image, beside) = shown(model)?;
     let area = area(model)?.as_size();
-    Some(Request { beside, window, medium, ..Request::whole(number, image, area) })
+    let marks = cross::marks(model);
+    Some(Request { beside, window, medium, marks, ..Request::whole(number, image, area) })
 }
 
 type Beheld = (u64, Arc<Image>, Option<(Arc<Image>, f64)>);

@@ -20,6 +20,7 @@ use ratatui_image::protocol::sixel::Sixel;
 
 use super::blocks::Blocks;
 use super::compare::slider;
+use super::marks::{self, Mark};
 use super::protocol::{Kind, Medium};
 use super::window::{Fit, Window};
 use crate::canvas::image::Image;
@@ -42,12 +43,15 @@ pub struct Request {
     pub area: Size,
     /// How it reaches the terminal.
     pub medium: Medium,
+    /// What is marked in it, where it goes by a protocol: half blocks can have characters over them.
+    pub marks: Vec<Mark>,
 }
 
 impl Request {
     /// A whole picture.
     pub fn whole(number: u64, image: Arc<Image>, area: Size) -> Self {
-        Self { number, image, beside: None, window: Window::default(), area, medium: Medium::BLOCKS }
+        let (window, medium) = (Window::default(), Medium::BLOCKS);
+        Self { number, image, beside: None, window, area, medium, marks: Vec::new() }
     }
 
     /// What makes it look as it does.
@@ -58,17 +62,19 @@ impl Request {
             window: self.window,
             area: self.area,
             medium: self.medium,
+            marks: self.marks.clone(),
         }
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 struct Key {
     number: u64,
     share: Option<f64>,
     window: Window,
     area: Size,
     medium: Medium,
+    marks: Vec<Mark>,
 }
 
 /// A picture that is ready to be drawn at the pane's place.
@@ -124,18 +130,21 @@ impl Encoded {
 
 /// Makes a picture ready. An error says why it cannot be shown this way.
 pub fn encode(request: &Request) -> Result<Encoded, String> {
-    let Request { image, window, area, medium, .. } = request;
+    let Request { image, window, area, medium, marks, .. } = request;
     let pane = medium.pixels(*area);
+    let fit = window.fit(image.size, pane);
     let shape = match medium.kind {
         _ if area.area() == 0 => Shape::Nothing,
         Kind::None => Shape::Nothing,
         Kind::Halfblocks => Shape::Blocks(Blocks::new(&cut(request, pane))),
         kind => {
             let blocks = Blocks::new(&cut(request, Medium::BLOCKS.pixels(*area)));
-            Shape::Graphics(graphics(kind, cut(request, pane), *area)?, blocks)
+            let mut picture = cut(request, pane);
+            marks.iter().for_each(|mark| marks::draw(&mut picture, &fit, mark, medium.cell[1]));
+            Shape::Graphics(graphics(kind, picture, *area)?, blocks)
         }
     };
-    Ok(Encoded { key: request.key(), fit: window.fit(image.size, pane), shape })
+    Ok(Encoded { key: request.key(), fit, shape })
 }
 
 /// What is seen in a pane of so many pixels.
@@ -225,7 +234,7 @@ impl Encoder {
     /// Asks for a picture, unless it is the one that was asked for last. True if it is another.
     pub fn ask(&mut self, request: Request) -> bool {
         let key = request.key();
-        let other = self.asked != Some(key);
+        let other = self.asked != Some(key.clone());
         if other {
             self.asked = Some(key);
             self.desk.change(|slot| slot.next = Some(request));

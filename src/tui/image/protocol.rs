@@ -79,6 +79,13 @@ pub enum Kind {
     None,
 }
 
+impl Kind {
+    /// Whether it is pixels of its own, which nothing can lie over.
+    pub fn is_graphics(self) -> bool {
+        !matches!(self, Self::Halfblocks | Self::None)
+    }
+}
+
 /// How pictures reach the terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Medium {

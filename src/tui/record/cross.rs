@@ -6,6 +6,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 
 use super::waiting_at;
+use crate::tui::image::marks::{Mark, Sign};
 use crate::tui::image::protocol::Medium;
 use crate::tui::image::window::Fit;
 use crate::tui::model::{Model, Pane};
@@ -41,9 +42,14 @@ impl Lie {
         Some(within([0, 1].map(|k| share[k] * self.viewport[k]), self.viewport))
     }
 
+    /// A position in shares of the view's width and height.
+    fn share(&self, at: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|k| at[k] / self.viewport[k])
+    }
+
     /// The cell where a position of the view is seen.
     fn cell(&self, at: [f64; 2]) -> Option<Position> {
-        let pane = self.fit.share_to_pane([0, 1].map(|k| at[k] / self.viewport[k]))?;
+        let pane = self.fit.share_to_pane(self.share(at))?;
         let [x, y] = [0, 1].map(|k| (pane[k] / f64::from(self.medium.cell[k])) as u16);
         let cell = Position { x: self.area.x.checked_add(x)?, y: self.area.y.checked_add(y)? };
         self.area.contains(cell).then_some(cell)
@@ -76,14 +82,43 @@ pub(in crate::tui) fn moved(model: &Model, from: [f64; 2], by: [f64; 2], by_cell
     within([0, 1].map(|k| from[k] + by[k] * step[k]), lie.viewport)
 }
 
-/// Draws the cross-hair over the picture, and the point that waits.
-pub(in crate::tui) fn draw(model: &Model, theme: &Theme, buffer: &mut Buffer) {
-    let (Some(recorder), Some(lie)) = (&model.recorder, Lie::of(model)) else { return };
+/// The shares of the view's width and height at which a position lies, if it is not seen in the picture.
+pub(in crate::tui) fn out_of_sight(model: &Model, at: [f64; 2]) -> Option<[f64; 2]> {
+    let lie = Lie::of(model)?;
+    lie.cell(at).is_none().then(|| lie.share(at))
+}
+
+/// The point that waits, unless it lies elsewhere in the view that the picture shows, and the cross-hair over it.
+fn signs(model: &Model) -> Vec<(Sign, [f64; 2])> {
+    let Some(recorder) = model.recorder.as_ref().filter(|_| !model.picture.is_flat()) else {
+        return Vec::new();
+    };
     let waiting = waiting_at(model).filter(|_| !super::is_turned(model));
-    for (at, mark, role) in [(waiting, "●", Role::Bad), (Some(recorder.cross), "╋", Role::Accent)] {
-        let cell = at.and_then(|at| lie.cell(at)).and_then(|cell| buffer.cell_mut(cell));
-        cell.into_iter().for_each(|cell| {
+    let dot = waiting.map(|at| (Sign::Dot, at));
+    dot.into_iter().chain([(Sign::Cross, recorder.cross)]).collect()
+}
+
+/// What is to be marked in the pixels of the picture, where it goes by a protocol.
+pub(in crate::tui) fn marks(model: &Model) -> Vec<Mark> {
+    let lie = Lie::of(model).filter(|lie| lie.medium.kind.is_graphics());
+    let mark =
+        |lie: &Lie| signs(model).into_iter().map(|(sign, at)| Mark { share: lie.share(at), sign }).collect();
+    lie.as_ref().map_or_else(Vec::new, mark)
+}
+
+/// Draws them over the picture as characters, unless they are in its pixels.
+pub(in crate::tui) fn draw(model: &Model, theme: &Theme, buffer: &mut Buffer) {
+    let Some(lie) = Lie::of(model) else { return };
+    if lie.medium.kind.is_graphics() && model.popup.is_none() {
+        return;
+    }
+    for (sign, at) in signs(model) {
+        let (mark, role) = match sign {
+            Sign::Dot => ("●", Role::Bad),
+            Sign::Cross => ("╋", Role::Accent),
+        };
+        if let Some(cell) = lie.cell(at).and_then(|cell| buffer.cell_mut(cell)) {
             cell.set_symbol(mark).set_style(theme.style(role));
-        });
+        }
     }
 }

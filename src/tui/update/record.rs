@@ -11,6 +11,7 @@ use crate::replay::{self, Input};
 use crate::report::{EventReport, Outcome};
 use crate::tui::action::Action;
 use crate::tui::model::{Model, Pane, Place, Timing};
+use crate::tui::picture::golden::Golden;
 use crate::tui::popups::Question;
 use crate::tui::record::{self, Draft, Kept, Recorder, cross};
 use crate::tui::shot::Subject;
@@ -59,7 +60,8 @@ fn go_on(model: &mut Model) {
 fn start(model: &mut Model, recorder: Recorder) {
     (model.playing, model.wanted) = (None, None);
     model.recorder = Some(recorder);
-    (model.focus, model.picture.subject) = (Pane::Picture, Subject::Frame);
+    model.focus = Pane::Picture;
+    (model.picture.subject, model.picture.golden) = (Subject::Frame, Golden::Off);
 }
 
 /// Stops recording; what was recorded stays.
@@ -104,8 +106,8 @@ fn point(model: &mut Model) {
     if !can_record(model) {
         return;
     }
-    if model.picture.subject != Subject::Frame {
-        return model.complain("this picture is a map: points are made in the frame");
+    if model.picture.is_flat() {
+        return model.complain("this picture is not the frame: points are made in that");
     }
     if !is_seen(model) {
         return model.complain("the picture is still that of another view: point again when it is there");
@@ -131,6 +133,9 @@ fn cross(model: &mut Model, by: [f64; 2], by_cells: bool) {
 fn place_cross(model: &mut Model, at: [f64; 2]) {
     model.message = None;
     model.recorder.iter_mut().for_each(|recorder| recorder.cross = at);
+    if let Some(centre) = cross::out_of_sight(model, at) {
+        model.picture.window.centre = centre;
+    }
 }
 
 /// A click on the picture: puts the cross-hair there, and points. False if nothing is recorded, or the cell shows nothing of the view.

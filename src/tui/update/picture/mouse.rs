@@ -59,8 +59,8 @@ fn drag(model: &mut Model, area: Rect, at: Position) {
 }
 
 fn release(model: &mut Model, area: Rect, at: Position) {
-    let moved = model.picture.drag.take().is_none_or(|drag| drag.moved);
-    if !moved && !record::clicked(model, at) {
+    let Some(Drag { pull, .. }) = model.picture.drag.take().filter(|drag| !drag.moved) else { return };
+    if pull != Pull::Orbit || !record::clicked(model, at) {
         identify(model, area, at);
     }
 }
