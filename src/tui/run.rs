@@ -165,7 +165,9 @@ impl App {
             }
             self.changed = true;
         }
-        picture::request(&self.model).into_iter().for_each(|request| drop(self.encoder.ask(request)));
+        if let Some(request) = picture::request(&self.model) {
+            self.encoder.ask(request);
+        }
         Ok(())
     }
 

@@ -235,14 +235,6 @@ impl Model {
         self.effects.push(Effect::Ask(ask));
     }
 
-    /// Whether the worker is at work.
-    pub(in crate::tui) fn is_busy(&self) -> bool {
-        self.answered < self.asked
-            || self.progress.is_some()
-            || self.comparing.is_some()
-            || self.picture.is_awaited()
-    }
-
     /// Chooses the rows of the place in the timeline and among the stages.
     pub(in crate::tui) fn follow(&mut self) {
         let row = self.place.event().map_or(0, |event| event + 1);

@@ -73,13 +73,7 @@ pub(in crate::tui) fn position(model: &Model, cell: Position) -> Option<[f64; 2]
 pub(in crate::tui) fn moved(model: &Model, from: [f64; 2], by: [f64; 2], by_cells: bool) -> [f64; 2] {
     let Some(lie) = Lie::of(model) else { return from };
     let step = if by_cells { lie.step() } else { [1.0; 2] };
-    within([0, 1].map(|k| by[k].mul_add(step[k], from[k])), lie.viewport)
-}
-
-/// The shares of the view's width and height at which a position lies, if it is not seen in the picture.
-pub(in crate::tui) fn out_of_sight(model: &Model, at: [f64; 2]) -> Option<[f64; 2]> {
-    let lie = Lie::of(model)?;
-    lie.cell(at).is_none().then(|| [0, 1].map(|k| at[k] / lie.viewport[k]))
+    within([0, 1].map(|k| from[k] + by[k] * step[k]), lie.viewport)
 }
 
 /// Draws the cross-hair over the picture, and the point that waits.

@@ -12,7 +12,6 @@ pub(in crate::tui) fn model() -> Model {
         path: Some("some/where.lancet".into()),
         engine: "an-engine".into(),
         stages: ["AA", "SO", "AB"].map(|id| (id.into(), "a stage".into())).to_vec(),
-        modes: vec!["one".into()],
         lines: ["mode", "click", "cut", "cut"].map(|kind| format!("{{\"{kind}\":[]}}")).to_vec(),
         scene: "builtin:some".into(),
         viewport: [640, 480],

@@ -128,8 +128,6 @@ pub(in crate::tui) struct Opened {
     pub(in crate::tui) engine: String,
     /// The engine's stages: short name and title.
     pub(in crate::tui) stages: Vec<(String, String)>,
-    /// The modes that can be chosen by hand.
-    pub(in crate::tui) modes: Vec<String>,
     /// The events as they stand in a script.
     pub(in crate::tui) lines: Vec<String>,
     /// What it was recorded on.

@@ -187,7 +187,6 @@ impl Desk {
             path: path.map(Path::to_owned),
             engine: replay.engine().into(),
             stages: replay.stages().into_iter().map(|(id, title)| (id.into(), title.into())).collect(),
-            modes: recording.modes().iter().map(|mode| (*mode).into()).collect(),
             lines: recording.event_lines(),
             scene: recording.scene().to_string(),
             viewport: recording.viewport(),
