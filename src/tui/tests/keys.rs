@@ -3,30 +3,21 @@
 //! A screen is come to anew before each key, by keys; what a key did to the run, the picture or the recording stays, so that the next one finds
 //! ever other states. A single key never writes a file: whoever asks for a name is asked for one with a folder that is not there.
 
-use std::path::Path;
-
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 
 use super::opened;
+use crate::assets;
 use crate::tui::screen;
 use crate::tui::stage::Stage;
+use crate::tui::suite::SQUARE;
 use crate::tui::theme::Theme;
+use crate::tui::worker::{Ask, Opened};
 
-/// A recording of a square that is cut once, then missed.
-const SQUARE: &str = r#"{ "version": 1, "viewport": [16, 16], "seed": 3,
-    "scene": { "inline": { "nodes": [[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], "faces": [[0, 1, 2], [0, 2, 3]] } },
-    "events": [ { "mode": "merge" }, { "click": [7, 6] }, { "click": [10, 9] }, { "click": [0.5, 0.5] },
-                { "checkpoint": "end" } ] }"#;
+/// The keys that lead to each pane.
+const PANES: [&str; 7] = ["1", "2", "3", "4", "5", "6", "7"];
 
-/// Screens: whether something is being recorded there, and the keys that lead there.
-const SCREENS: [(bool, &str); 18] = [
-    (false, "1"),
-    (false, "2"),
-    (false, "3"),
-    (false, "4"),
-    (false, "5"),
-    (false, "6"),
-    (false, "7"),
+/// What lies over the panes: whether something is being recorded then, and the key that opens it.
+const POPUPS: [(bool, &str); 12] = [
     (false, "?"),
     (false, ":"),
     (false, "b"),
@@ -35,54 +26,91 @@ const SCREENS: [(bool, &str); 18] = [
     (false, "+"),
     (false, "ctrl-o"),
     (false, "ctrl-n"),
-    (true, "4"),
+    (false, "P"),
     (true, "a"),
     (true, "n"),
+    (true, "ctrl-s"),
 ];
 
-/// Screens where a name is asked for, under which something is written.
-const WRITING: [(bool, &str); 2] = [(true, "ctrl-s"), (false, "P")];
+/// Those that write a file when they are answered.
+const WRITING: [&str; 2] = ["P", "ctrl-s"];
 
 #[test]
-fn every_key_on_every_screen() {
-    for size in [[80, 24], [1, 1], [2, 2], [5, 3]] {
-        type_all(size);
+fn every_key_on_a_usual_screen() {
+    Typist::new([80, 24]).type_all();
+}
+
+#[test]
+fn every_key_where_there_is_no_room() {
+    for size in [[1, 1], [2, 2], [5, 3]] {
+        Typist::new(size).type_all();
     }
 }
 
-fn type_all(size: [u16; 2]) {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("square.json");
-    crate::assets::write_file(&path, SQUARE.as_bytes()).expect("written");
-    let mut stage = opened(Path::new(&path), Theme::default(), size);
-    let nowhere = Event::Paste(folder.path().join("no/folder/file").display().to_string());
-    let events = events(size);
-    for (recording, keys) in SCREENS.into_iter().chain(WRITING) {
-        for event in &events {
-            come_to(&mut stage, recording, keys);
-            if WRITING.contains(&(recording, keys)) {
-                stage.take(nowhere.clone());
+struct Typist {
+    stage: Stage,
+    size: [u16; 2],
+    folder: tempfile::TempDir,
+}
+
+impl Typist {
+    fn new(size: [u16; 2]) -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("square.json");
+        assets::write_file(&path, SQUARE.as_bytes()).expect("written");
+        Self { stage: opened(&path, None, Theme::default(), size), size, folder }
+    }
+
+    fn type_all(&mut self) {
+        let events = events(self.size);
+        let panes = PANES.iter().map(|keys| (false, *keys, false));
+        let popups = POPUPS.iter().map(|(recording, keys)| (*recording, *keys, true));
+        // Whoever leaves after something was recorded is asked what becomes of it.
+        let recorded = [(true, "4", false), (true, "q", true)];
+        for (recording, keys, is_popup) in panes.chain(recorded).chain(popups) {
+            for event in &events {
+                self.come_to(recording, keys, is_popup);
+                self.stage.take(event.clone());
+                self.assert_drawn(&format!("{keys:?} and then {event:?}"));
             }
-            stage.take(event.clone());
-            assert_drawn(&mut stage, size, &format!("{keys:?} and then {event:?}"));
         }
     }
-}
 
-/// Closes what is open, and goes to a screen.
-fn come_to(stage: &mut Stage, recording: bool, keys: &str) {
-    stage.model().popup = None;
-    if stage.model().recorder.is_some() != recording {
-        stage.press("r").expect("a key");
+    /// Closes what is open, and goes to a screen.
+    fn come_to(&mut self, recording: bool, keys: &str, is_popup: bool) {
+        self.stage.model().popup = None;
+        if self.stage.model().opened.as_ref().is_none_or(|opened| !is_small(opened)) {
+            let path = self.folder.path().join("square.json");
+            self.stage.model().ask(Ask::Open(path));
+            self.stage.settle();
+        }
+        if self.stage.model().recorder.is_some() != recording {
+            self.press("end r");
+        }
+        self.press(keys);
+        assert_eq!(self.stage.model().popup.is_some(), is_popup, "{keys}");
+        if WRITING.contains(&keys) {
+            let nowhere = self.folder.path().join("no/folder/file").display().to_string();
+            self.stage.take(Event::Paste(nowhere));
+        }
     }
-    stage.press(keys).expect("keys");
+
+    fn press(&mut self, keys: &str) {
+        self.stage.press(keys).expect("keys");
+    }
+
+    fn assert_drawn(&self, what: &str) {
+        let text = screen::to_text(&self.stage.screen());
+        let [width, height] = self.size.map(usize::from);
+        assert_eq!(text.lines().count(), height, "{what}");
+        assert!(width < 40 || text.starts_with("lancet"), "{what}:\n{text}");
+        assert!(!text.trim().is_empty(), "{what}");
+    }
 }
 
-fn assert_drawn(stage: &mut Stage, [width, height]: [u16; 2], what: &str) {
-    let text = screen::to_text(&stage.screen());
-    assert_eq!(stage.model().size, [width, height], "{what}");
-    assert_eq!(text.lines().count(), usize::from(height), "{what}");
-    assert!(width < 40 || text.starts_with("lancet"), "{what}:\n{text}");
+/// What can be opened by a key may be large, and every key after that would be slow.
+fn is_small(opened: &Opened) -> bool {
+    opened.scene.contains("inline") && opened.lines.len() < 40
 }
 
 /// Every key with every modifier that terminals send with it; the mouse in all corners; a text that is pasted.

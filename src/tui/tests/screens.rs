@@ -8,22 +8,36 @@ use std::path::Path;
 use crossterm::event::Event;
 
 use super::opened;
-use crate::tui::Stage;
 use crate::tui::lower::Depth;
 use crate::tui::screen;
 use crate::tui::theme::{Base, Theme};
+use crate::tui::{Stage, With};
 
 /// Screens, and the keys that lead there.
-const SCREENS: [(&str, &str); 4] =
-    [("start", ""), ("cut", "l l l"), ("stage", "l l s s"), ("rejected", "l l l l l l l l")];
+const SCREENS: [(&str, &str); 10] = [
+    ("start", ""),
+    ("cut", "l l l"),
+    ("stage", "l l s s"),
+    ("rejected", "l l l l l l l l"),
+    ("help", "?"),
+    ("palette", ": s t e p"),
+    ("search", "/ u n d o enter"),
+    ("breakpoints", "b a r e j e c t e d enter"),
+    ("pending", "l l r enter"),
+    (DIFFERENCES, "7 j"),
+];
+
+/// The screen of a run that is compared with another one.
+const DIFFERENCES: &str = "differences";
 
 const LARGE: [u16; 2] = [120, 40];
 const USUAL: [u16; 2] = [80, 24];
 const SMALL: [u16; 2] = [40, 12];
 
-/// The screen that keys lead to.
-fn led(keys: &str, theme: Theme, size: [u16; 2]) -> Stage {
-    let mut stage = opened(Path::new("tests/fixtures/screen.json"), theme, size);
+/// A screen.
+fn led(name: &str, keys: &str, theme: Theme, size: [u16; 2]) -> Stage {
+    let other = (name == DIFFERENCES).then(|| With::Run("tests/fixtures/screen-other.json".into()));
+    let mut stage = opened(Path::new("tests/fixtures/screen.json"), other, theme, size);
     stage.press(keys).expect("keys");
     stage
 }
@@ -43,7 +57,7 @@ fn check(name: &str, look: &str, [width, height]: [u16; 2], screen: &str) {
 /// All screens, first at one size, and then as they follow the terminal to others.
 fn check_all(look: &str, theme: &Theme, sizes: &[[u16; 2]]) {
     for (name, keys) in SCREENS {
-        let mut stage = led(keys, theme.clone(), USUAL);
+        let mut stage = led(name, keys, theme.clone(), USUAL);
         for [width, height] in sizes {
             stage.take(Event::Resize(*width, *height));
             check(name, look, [*width, *height], &styled(&stage));
@@ -64,8 +78,8 @@ fn without_colour_nothing_is_missing() {
 #[test]
 fn on_a_light_ground_the_same_is_said() {
     for (name, keys) in SCREENS {
-        let [dark, light] =
-            [Base::Dark, Base::Light].map(|base| styled(&led(keys, Theme::new(base, Depth::Full), USUAL)));
+        let [dark, light] = [Base::Dark, Base::Light]
+            .map(|base| styled(&led(name, keys, Theme::new(base, Depth::Full), USUAL)));
         let [(dark, _), (light, styles)] =
             [&dark, &light].map(|screen| screen.split_once("styles\n").expect("styles"));
         assert_eq!(dark, light);
