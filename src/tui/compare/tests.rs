@@ -8,11 +8,6 @@ use crate::tui::tests::suite::{Screen, Suite, lancet};
 use crate::tui::update;
 use crate::verify::ImageVerdict;
 
-/// A comparison that came to these pictures, and nothing else.
-pub(in crate::tui) fn with_pictures(with: With, pictures: Vec<ComparedPicture>) -> Differences {
-    Differences::new(with, std::iter::empty(), Vec::new(), 0, pictures)
-}
-
 const RUN: &str = "golden/square/_run.txt";
 
 fn compared(suite: &Suite) -> Screen {

@@ -9,7 +9,7 @@ use super::opened;
 use crate::assets;
 use crate::tui::screen;
 use crate::tui::stage::Stage;
-use crate::tui::suite::SQUARE;
+use crate::tui::tests::suite::SQUARE;
 use crate::tui::theme::Theme;
 use crate::tui::worker::{Ask, Opened};
 
