@@ -184,7 +184,7 @@ mod tests {
         let mut stage = Stage::open(&start, Theme::default(), [120, 40], true);
         stage.press("l l l").expect("keys");
         let text = super::super::screen::to_text(&stage.screen());
-        assert!(text.contains("3/5") && text.contains("(miss)"), "{text}");
+        assert!(text.contains("3/5") && text.contains(" miss"), "{text}");
         assert!(stage.press("nokey").is_err());
         stage.press("q").expect("a key");
         assert!(stage.is_over());

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! 5 tables links (34)
-//! 3mesh 5 tables 6invariants 7differences links (34)
+//! 3mesh 5 tables 6invariants 7differences · links (34)
 //! 1 timeline 2sta 3mes 4pic 5tab 6inv 7dif
 //! ```
 //!
@@ -15,6 +15,9 @@ use super::model::{Model, Pane};
 use super::theme::{Role, Theme};
 use super::view::Areas;
 use super::{panes, text};
+
+/// What a pane is about is cut no shorter than this.
+const LEAST: usize = 9;
 
 /// A part of a title.
 pub(in crate::tui) struct Part {
@@ -37,14 +40,22 @@ pub(in crate::tui) fn title(
         [] => &alone[..],
         sharing => sharing,
     };
-    let letters = (0..=12).rev().find(|letters| taken(sharing, pane, *letters) < width).unwrap_or(0);
+    let letters = (0..=12).rev().find(|letters| taken(sharing, pane, *letters) <= width).unwrap_or(0);
     let mut parts: Vec<Part> = sharing
         .iter()
         .flat_map(|tab| entry(*tab, *tab == pane, model.focus == pane, letters, theme))
         .collect();
-    let about = text::line(&panes::about(pane, model));
+    let taken: usize = parts.iter().map(|part| part.span.width()).sum();
+    let about = about(pane, model, sharing.len() > 1, width.saturating_sub(taken));
     parts.push(Part { pane: None, span: Span::styled(about, theme.style(Role::Faint)) });
-    clip(parts, width)
+    parts
+}
+
+/// What a pane is about, in so many cells; nothing where that would say nothing.
+fn about(pane: Pane, model: &Model, tabs: bool, room: usize) -> String {
+    let about = panes::about(pane, model);
+    let about = if tabs && !about.is_empty() { format!("· {about}") } else { about };
+    if room < LEAST.min(text::width(&about)) { String::new() } else { text::fit(&about, room) }
 }
 
 /// The number and the name of a pane, and a blank after them.
@@ -68,18 +79,6 @@ fn short(tab: Pane, letters: usize) -> String {
 fn taken(sharing: &[Pane], pane: Pane, letters: usize) -> usize {
     let one = |tab: &Pane| if *tab == pane { tab.title().len() + 3 } else { short(*tab, letters).len() + 2 };
     sharing.iter().map(one).sum::<usize>().saturating_sub(1)
-}
-
-/// As much as there is room for. What a pane is about ends in an ellipsis, a tab just ends.
-fn clip(parts: Vec<Part>, mut width: usize) -> Vec<Part> {
-    let mut clipped = Vec::new();
-    for Part { pane, span } in parts {
-        let room = if pane.is_some() { width.max(span.width()) } else { width };
-        let fitted = text::fit(&span.content, room);
-        width = width.saturating_sub(text::width(&fitted));
-        clipped.push(Part { pane, span: Span::styled(fitted, span.style) });
-    }
-    clipped
 }
 
 /// The pane that a click on a title goes to, so many cells from its beginning.

@@ -53,8 +53,9 @@ pub fn wrap(text: &str, width: usize, lines: usize) -> Vec<String> {
     let mut wrapped = Vec::new();
     while wrapped.len() + 1 < lines && self::width(&rest) > width && width > 0 {
         let head = head(&rest, width);
-        // A word that is longer than the line is broken anywhere.
-        let at = rest[..=head.min(rest.len() - 1)].rfind(' ').filter(|at| *at > 0).unwrap_or(head);
+        // A blank may come right after what fits. A word that is longer than the line is broken anywhere.
+        let reach = rest[head..].chars().next().map_or(head, |next| head + next.len_utf8());
+        let at = rest[..reach].rfind(' ').filter(|at| *at > 0).unwrap_or(head);
         let next = rest.split_off(at);
         wrapped.push(std::mem::replace(&mut rest, next.trim_start().to_owned()));
     }

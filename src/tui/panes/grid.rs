@@ -1,6 +1,7 @@
 //! Columns: as wide as what is in them, numbers to the right, and narrower where there is no room.
 //!
-//! The widest column gives way first, a cell at a time, down to a few cells; when every one is down there, the last ones go.
+//! Heads that are wider than what stands below them give way first, then the widest columns, down to a few cells; when every one is down there, the last
+//! ones go.
 
 use crate::report::printable;
 use crate::tui::text;
@@ -14,7 +15,8 @@ const LEAST: usize = 5;
 pub(super) struct Grid {
     heads: Vec<String>,
     rows: Vec<Vec<String>>,
-    widths: Vec<usize>,
+    /// Of each column, cells that it needs, and of these what it needs below its head.
+    widths: Vec<[usize; 2]>,
     numeric: Vec<bool>,
 }
 
@@ -27,7 +29,8 @@ impl Grid {
         let count = rows.iter().map(Vec::len).max().unwrap_or(0).max(heads.len());
         let wide = |i: usize| {
             let head = heads.get(i).map_or(0, |head| text::width(head));
-            column(i).map(text::width).max().unwrap_or(0).max(head)
+            let below = column(i).map(text::width).max().unwrap_or(0);
+            [below.max(head), below]
         };
         let widths = (0..count).map(wide).collect();
         let numeric =
@@ -58,10 +61,18 @@ impl Grid {
     }
 }
 
+fn sum(widths: &[usize]) -> usize {
+    widths.iter().sum::<usize>() + GAP * widths.len().saturating_sub(1)
+}
+
 /// The widths that columns get of some cells. Those that get none are not among them.
-fn fit(natural: &[usize], room: usize) -> Vec<usize> {
-    let mut widths = natural.to_vec();
-    let sum = |widths: &[usize]| widths.iter().sum::<usize>() + GAP * widths.len().saturating_sub(1);
+fn fit(needs: &[[usize; 2]], room: usize) -> Vec<usize> {
+    let mut widths: Vec<usize> = needs.iter().map(|[width, _]| *width).collect();
+    while sum(&widths) > room {
+        let spare = |i: &usize| widths[*i].saturating_sub(needs[*i][1].max(LEAST));
+        let Some(most) = (0..widths.len()).max_by_key(spare).filter(|i| spare(i) > 0) else { break };
+        widths[most] -= 1;
+    }
     while sum(&widths) > room {
         let over = sum(&widths) - room;
         let widest = widths.iter().copied().max().unwrap_or(0);
@@ -110,11 +121,20 @@ mod tests {
     #[test]
     fn the_widest_gives_way_first_and_then_the_last() {
         assert_eq!(grid().line(1, 20), "EE    f2345…      12");
+        let fit =
+            |widths: &[usize], room| fit(&widths.iter().map(|width| [*width; 2]).collect::<Vec<_>>(), room);
         assert_eq!(fit(&[4, 9, 6], 19), [4, 5, 5]);
         assert_eq!(fit(&[9, 9, 6], 18), [5, 5]);
         assert_eq!(fit(&[9, 9], 7), [5]);
         assert_eq!(fit(&[9], 2), [2]);
         assert_eq!(fit(&[], 2), [0usize; 0]);
+    }
+
+    #[test]
+    fn heads_give_way_before_what_stands_below_them() {
+        assert_eq!(fit(&[[13, 2], [9, 9], [8, 8]], 34), [13, 9, 8]);
+        assert_eq!(fit(&[[13, 2], [9, 9], [8, 8]], 26), [5, 9, 8]);
+        assert_eq!(fit(&[[13, 2], [9, 9], [8, 8]], 25), [5, 8, 8]);
     }
 
     #[test]

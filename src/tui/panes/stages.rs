@@ -20,10 +20,10 @@ use crate::tui::theme::{Role, Theme};
 use crate::tui::{text, update};
 
 /// From this width on the spread is written out, and from that on titles, too.
-const WITH_SPREAD: usize = 64;
-const WITH_TITLES: usize = 100;
+const WITH_SPREAD: usize = 72;
+const WITH_TITLES: usize = 108;
 const TITLE: usize = 28;
-const SPREAD: usize = 38;
+const SPREAD: usize = 46;
 const TIME: usize = 8;
 
 /// A stage, or a pass of the frame.
@@ -221,7 +221,7 @@ fn spread(model: &Model, row: &Row<'_>) -> Option<Spread> {
 /// Median and quartiles, and of how many.
 fn written(spread: Spread) -> String {
     let Spread { low, median, high, count, .. } = spread;
-    format!("~{} ({}…{}) of {count}", text::us(median), text::us(low), text::us(high))
+    format!("median {} ({}…{}, {count} runs)", text::us(median), text::us(low), text::us(high))
 }
 
 /// What a stage is called in full.

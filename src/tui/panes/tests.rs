@@ -107,7 +107,7 @@ fn bars_are_as_long_as_the_time_and_have_the_spread_of_the_run() {
     assert_eq!(shown[0].matches(['█', '┼']).count(), 54 - 14, "the longest fills its bar: {}", shown[0]);
     assert_eq!(shown[0].chars().position(|c| c == '┼'), Some(14 + 20), "the median is half as long");
     let wide = lines(Pane::Stages, &model, 110, 3);
-    assert!(wide[0].contains("a stage") && wide[0].contains("~350 µs (350 µs…525 µs) of 5"), "{}", wide[0]);
+    assert!(wide[0].contains("a stage") && wide[0].contains("median 350 µs (350 µs…525 µs, 5 runs)"), "{}", wide[0]);
 }
 
 #[test]

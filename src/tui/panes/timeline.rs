@@ -44,6 +44,7 @@ pub(super) fn about(model: &Model) -> String {
     match (applied, rejected) {
         (0, 0) => String::new(),
         (_, 0) => format!("{applied} applied"),
+        (0, _) => format!("{rejected} rejected"),
         _ => format!("{applied} applied, {rejected} rejected"),
     }
 }

@@ -98,6 +98,6 @@ mod tests {
         assert_eq!(keep(full.as_slice()), full);
         let kept = keep(vec![b'x'; most + 2000].as_slice());
         assert_eq!(&kept[..most], full);
-        assert_eq!(String::from_utf8_lossy(&kept[most..]), "\n... and 2.0 kB more\n");
+        assert_eq!(String::from_utf8_lossy(&kept[most..]), "\n... and 2.00 kB more\n");
     }
 }

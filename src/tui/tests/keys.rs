@@ -6,10 +6,10 @@
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 
 use super::opened;
+use super::suite::SQUARE;
 use crate::assets;
 use crate::tui::screen;
 use crate::tui::stage::Stage;
-use crate::tui::tests::suite::SQUARE;
 use crate::tui::theme::Theme;
 use crate::tui::worker::{Ask, Opened};
 
@@ -104,7 +104,8 @@ impl Typist {
         let [width, height] = self.size.map(usize::from);
         assert_eq!(text.lines().count(), height, "{what}");
         assert!(width < 40 || text.starts_with("lancet"), "{what}:\n{text}");
-        assert!(!text.trim().is_empty(), "{what}");
+        // A popup leaves nothing of a screen of a few cells but what it asks for, which is nothing yet.
+        assert!(width * height < 15 || !text.trim().is_empty(), "{what}");
     }
 }
 

@@ -99,7 +99,7 @@ fn the_title_line_says_what_is_selected_and_keeps_the_place() {
         format!("{:<73}◆ f1 e2", "lancet some/where.lancet · an-engine  3/4")
     );
     model.size = [20, 12];
-    assert_eq!(text(&model)[0], "…some/where.lancet  3/4"[..].replace("…some/", "…"), "cut at its beginning");
+    assert_eq!(text(&model)[0], "…e/where.lancet  3/4", "cut at its beginning");
 }
 
 #[test]

@@ -42,6 +42,7 @@ fn shown(state: &mut State, group: &str) -> BTreeMap<String, Vec<u32>> {
     let Start::Run(mut work) = Wound::start(state, &event, 0) else { panic!("{event:?} does not start") };
     applied(state, &mut work, &event);
     let overlays = Wound::show(state, &work).overlays;
+    Wound::commit(state, &mut work);
     let sets = overlays.into_iter().filter(|overlay| overlay.group() == group);
     sets.filter_map(|set| match set {
         Overlay::Faces { name, faces } => Some((name, faces)),
