@@ -53,6 +53,9 @@ pub fn wrap(text: &str, width: usize, lines: usize) -> Vec<String> {
     let mut wrapped = Vec::new();
     while wrapped.len() + 1 < lines && self::width(&rest) > width && width > 0 {
         let head = head(&rest, width);
+        if self::width(&rest[..head]) > width {
+            break;
+        }
         // A blank may come right after what fits. A word that is longer than the line is broken anywhere.
         let reach = rest[head..].chars().next().map_or(head, |next| head + next.len_utf8());
         let at = rest[..reach].rfind(' ').filter(|at| *at > 0).unwrap_or(head);

@@ -120,7 +120,7 @@ mod tests {
 
     #[test]
     fn the_widest_gives_way_first_and_then_the_last() {
-        assert_eq!(grid().line(1, 20), "EE    f2345…      12");
+        assert_eq!(grid().line(1, 20), "EE    f23456…     12");
         let fit =
             |widths: &[usize], room| fit(&widths.iter().map(|width| [*width; 2]).collect::<Vec<_>>(), room);
         assert_eq!(fit(&[4, 9, 6], 19), [4, 5, 5]);
