@@ -79,13 +79,13 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, console: &mut Console<
 }
 
 /// Whether these arguments, of which the first is the program's name, are some that it takes. An error says what is wrong.
-#[cfg(test)]
+#[cfg(all(test, feature = "tui"))]
 pub(crate) fn parses(arguments: &[String]) -> Result<(), String> {
     Args::try_parse_from(arguments).map(drop).map_err(|error| error.to_string())
 }
 
 /// The long flags of a command.
-#[cfg(test)]
+#[cfg(all(test, feature = "tui"))]
 pub(crate) fn flags(command: &str) -> Vec<String> {
     use clap::CommandFactory;
     let all = Args::command();

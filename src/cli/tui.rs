@@ -1,8 +1,10 @@
 //! `lancet tui`: the terminal, where there is one, or what it would show.
 
+#[cfg(feature = "tui")]
+use super::Status;
 use super::args::Tui;
 use super::failure::Failure;
-use super::{Console, Done, Status};
+use super::{Console, Done};
 
 #[cfg(feature = "tui")]
 pub(super) fn run(typed: &Tui, console: &mut Console<'_>) -> Done {
