@@ -15,9 +15,8 @@
 //! | [`replay`] | the session: events through stages, clock, digests, checks, journal, keyframes, seek |
 //! | [`verify`] | goldens and their pictures: compare, bless, shard and merge, pages |
 //! | [`measure`] | time against error, stability, scaling, the thesis's tables |
-//! | [`tui`] | the terminal: the same reports, to step through |
 //! | [`cli`] | the command line |
-//! | [`tui`] | the terminal's screen |
+//! | [`tui`] | the terminal: the same reports, to step through, and recordings made by hand |
 //!
 //! Data flows one way: recording → replay → engine → report → front end. `geometry` and `mesh` lie under the engines. `tests/layers.rs`
 //! keeps it: it parses every path, and a room that it does not know fails.
@@ -49,6 +48,10 @@
 //! - **Positions on a GPU are relative to the model's middle,** not to the eye: then a moved camera uploads nothing.
 //! - **The inside of a cut is a formula,** three tissue colours over v, rather than a texture.
 //! - **Frames of checkpoints are at most 640 x 360,** in the view's own shape.
+//! - **A stop within an event is an open transaction.** The session holds it, so that mesh and pictures are those after a stage; the next step takes it
+//!   back first.
+//! - **What is done by hand is data** ([`engine::Input`]) until an engine makes an event of it, so that the terminal records for any engine.
+//! - **The terminal asks nothing of the terminal.** Which pictures it can show is told by environment and window size: a question would eat keys.
 //! - **Seeking walks patches;** keyframes and re-running take over where the byte budget let patches go.
 #![warn(missing_docs)]
 

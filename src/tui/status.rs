@@ -42,7 +42,8 @@ pub(super) fn title(model: &Model, theme: &Theme, area: Rect, buffer: &mut Buffe
     let taken: usize = spans.iter().map(Span::width).sum();
     Line::from(spans).render(area, buffer);
     let selected = text::fit(&selected(model), width.saturating_sub(taken + 2));
-    Line::styled(selected, theme.style(Role::Marked)).right_aligned().render(area, buffer);
+    // A style of the line would be one of all that is on it.
+    Line::from(Span::styled(selected, theme.style(Role::Marked))).right_aligned().render(area, buffer);
 }
 
 /// What is open.
