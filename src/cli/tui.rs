@@ -85,7 +85,7 @@ fn screen(
         Target::File(path) => assets::write_file(path, screen::to_text(&buffer).as_bytes())?,
         Target::Stdout => console.out.write_all(screen::to_text(&buffer).as_bytes())?,
     }
-    Ok(Status::Verified)
+    stage.failure().map_or(Ok(Status::Verified), |why| Err(Failure::new(why)))
 }
 
 /// No screen has more.

@@ -73,6 +73,12 @@ impl Stage {
         &mut self.model
     }
 
+    /// Why nothing is open, where something was to be.
+    pub fn failure(&self) -> Option<&str> {
+        let message = self.model.message.as_ref().filter(|message| message.wrong);
+        message.filter(|_| self.model.opened.is_none()).map(|message| message.text.as_str())
+    }
+
     /// What was copied, in order.
     pub fn copied(&self) -> &[String] {
         &self.copied

@@ -15,8 +15,10 @@ use ratatui::text::Line;
 
 use super::menu::{Pen, Row, blanks, marked};
 use crate::tui::action::{self, ACTIONS, Scope};
+use crate::tui::command;
 use crate::tui::fuzzy;
 use crate::tui::keys::Keys;
+use crate::tui::model::Model;
 use crate::tui::theme::Role;
 
 /// Where keys count, in the order of the help.
@@ -77,7 +79,7 @@ fn row(entry: &Entry, pen: Pen<'_>, width: usize) -> Row {
             Row {
                 left: Line::from(spans),
                 right: if width < WIDE { Line::default() } else { Line::from(name) },
-                about: about(row),
+                about: about(row, pen.model),
             }
         }
     }
@@ -89,11 +91,9 @@ pub(super) fn keys(row: &action::Row, keys: &Keys) -> String {
     if keys.is_empty() { "no key".into() } else { keys.join(", ") }
 }
 
-/// What an action does, and the command that does the same.
-pub(super) fn about(row: &action::Row) -> Vec<String> {
-    let command = match row.command {
-        Some(command) => format!("lancet {command}"),
-        None => "only the screen changes: no command is needed".into(),
-    };
+/// What an action does, and the command that does the same, with what is on the screen.
+pub(super) fn about(row: &action::Row, model: &Model) -> Vec<String> {
+    let nothing = || "only the screen changes: no command is needed".into();
+    let command = command::of(model, row).unwrap_or_else(nothing);
     vec![format!("{}: {}", row.name, row.does), command]
 }

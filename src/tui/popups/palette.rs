@@ -65,6 +65,6 @@ fn row(Entry { row, name, does, .. }: &Entry, pen: Pen<'_>) -> Row {
     Row {
         left: Line::from(spans),
         right: Line::styled(help::keys(row, pen.keys), pen.theme.style(Role::Key)),
-        about: help::about(row),
+        about: help::about(row, pen.model),
     }
 }
