@@ -20,10 +20,7 @@ fn recorded(folder: &Path) -> Program {
     program.press(ENTER);
     program.expect("new recording");
     let Area { x, y, width, height } = program.pane("picture");
-    program.until("the picture", |screen| {
-        let row = (x..x + width).filter_map(|column| screen.cell(y + height / 2, column));
-        row.filter(|cell| cell.contents() == "▀").count() > 5
-    });
+    program.expect("picture frame");
     program.click([x + width / 2 - 4, y + height / 2]);
     program.expect("a second point is waited for");
     program.click([x + width / 2 + 5, y + height / 2 + 1]);
