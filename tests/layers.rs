@@ -64,21 +64,6 @@ const ROOMS: &[Room] = &[
         why: "it times whatever there is, and answers with reports",
     },
     Room {
-        name: "tui",
-        may_name: &[
-            "assets",
-            "canvas",
-            "measure",
-            "mesh",
-            "recording",
-            "render",
-            "replay",
-            "report",
-            "verify",
-        ],
-        why: "a front end shows reports: it computes nothing, and knows no engine",
-    },
-    Room {
         name: "cli",
         may_name: &[
             "assets",

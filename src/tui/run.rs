@@ -61,8 +61,10 @@ pub fn run(start: Start) -> io::Result<()> {
     while turned.is_ok() && !app.model.done && !app.terminal.ended() {
         turned = app.turn();
     }
+    // What a closed terminal makes of reading and writing is no error of its own.
+    let ended = app.terminal.ended();
     app.end();
-    turned
+    if ended { Ok(()) } else { turned }
 }
 
 /// How pictures reach the terminal. Its cells may have another size than before.

@@ -18,9 +18,9 @@ fn recorded(folder: &Path) -> Program {
     program.press("grid");
     program.expect("begin a new recording on builtin:grid");
     program.press(ENTER);
-    program.expect("new recording");
-    let Area { x, y, width, height } = program.pane("picture");
+    // The panes lie where they stay once there is a picture in theirs.
     program.expect("picture frame");
+    let Area { x, y, width, height } = program.pane("picture");
     program.click([x + width / 2 - 4, y + height / 2]);
     program.expect("a second point is waited for");
     program.click([x + width / 2 + 5, y + height / 2 + 1]);

@@ -11,7 +11,7 @@ use crate::tui::text;
 use crate::tui::theme::{Role, Theme};
 
 /// Below this many columns and rows a border would leave nothing to see.
-const LEAST: [u16; 2] = [12, 5];
+const LEAST: [u16; 2] = [12, 4];
 
 /// From this many rows on, the first and the last of the screen stay in sight: they say where one is, and what went wrong.
 const HIGH: u16 = 8;
