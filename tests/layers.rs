@@ -35,12 +35,12 @@ const ROOMS: &[Room] = &[
     },
     Room {
         name: "recording",
-        may_name: &["engine", "mesh"],
+        may_name: &["engine", "mesh", "report"],
         why: "it holds the engines' events and the ids in them, and opens no file",
     },
     Room {
         name: "assets",
-        may_name: &["canvas", "geometry", "mesh", "recording"],
+        may_name: &["canvas", "geometry", "mesh", "recording", "report"],
         why: "it makes meshes and maps of what a recording names, and knows nothing of cuts",
     },
     Room {

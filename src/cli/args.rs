@@ -249,7 +249,7 @@ pub(super) enum Ground {
 #[derive(Debug, clap::Args)]
 #[cfg_attr(feature = "tui", command(after_help = settings()))]
 pub(super) struct Tui {
-    /// The recording
+    /// The recording or script; or what to begin one on: a scene (.json), a mesh (OBJ, glTF, PLY) or builtin:NAME
     #[arg(value_name = "REC", value_hint = ValueHint::FilePath)]
     pub(super) recording: Option<PathBuf>,
     /// Who renders
@@ -267,7 +267,8 @@ pub(super) struct Tui {
     /// The settings to use [default: config.toml in the user's folder of settings]
     #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
     pub(super) config: Option<PathBuf>,
-    /// Instead of taking the terminal, write what the screen shows: as text, or as a picture where F ends in .svg
+    /// Instead of taking the terminal, write what the screen shows: as text, or as a picture where F ends in .svg. The status is that
+    /// of `verify` where something was compared, else that of `replay`
     #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
     pub(super) screen: Option<Target>,
     /// Type these keys first, with blanks between them, such as `l l s shift-tab`
