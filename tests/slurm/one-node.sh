@@ -12,7 +12,8 @@ lancet=${LANCET:-target/release/lancet}
 scratch=$(mktemp -d)
 pids=()
 finish() {
-  ((${#pids[@]} == 0)) || kill "${pids[@]}" 2> /dev/null || true
+  # The daemons write to the scratch folder until they are gone.
+  ((${#pids[@]} == 0)) || { kill "${pids[@]}" && wait "${pids[@]}"; } 2> /dev/null || true
   rm -rf "$scratch"
 }
 trap finish EXIT
@@ -34,7 +35,7 @@ wait_for() {
 mkdir -p "$scratch/munge" "$scratch/state" "$scratch/spool"
 chmod 755 "$scratch" "$scratch/munge"
 munged --foreground --force --socket="$scratch/munge/socket" --pid-file="$scratch/munge/pid" \
-  --log-file="$scratch/munge.log" --seed-file="$scratch/munge/seed" &
+  --seed-file="$scratch/munge/seed" 2> "$scratch/munged.log" &
 pids+=($!)
 wait_for munged munge --no-input --socket="$scratch/munge/socket"
 
@@ -66,9 +67,9 @@ NodeName=$host NodeAddr=127.0.0.1 CPUs=$(nproc) State=UNKNOWN
 PartitionName=all Nodes=$host Default=YES MaxTime=INFINITE State=UP
 CONF
 export SLURM_CONF=$scratch/slurm.conf
-slurmctld -D &
+slurmctld -D 2> "$scratch/slurmctld-start.log" &
 pids+=($!)
-slurmd -D &
+slurmd -D 2> "$scratch/slurmd-start.log" &
 pids+=($!)
 wait_for 'idle node' sh -c 'sinfo --noheader --format=%T | grep -q idle'
 
