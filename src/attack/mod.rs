@@ -13,9 +13,11 @@
 //! makes one of it.
 
 mod mesh_files;
+pub mod nightly;
 mod pick;
 mod recording;
 mod scene;
+pub mod storm;
 
 use std::any::Any;
 use std::collections::BTreeMap;
