@@ -64,9 +64,27 @@ const ROOMS: &[Room] = &[
         why: "it times whatever there is, and answers with reports",
     },
     Room {
+        name: "attack",
+        may_name: &[
+            "assets",
+            "canvas",
+            "engine",
+            "geometry",
+            "measure",
+            "mesh",
+            "recording",
+            "render",
+            "replay",
+            "report",
+            "verify",
+        ],
+        why: "it attacks every room but the front ends, and answers with findings and reports",
+    },
+    Room {
         name: "cli",
         may_name: &[
             "assets",
+            "attack",
             "canvas",
             "measure",
             "recording",
@@ -148,7 +166,7 @@ const BANS: &[Ban] = &[
     Ban { path: "anstyle", but: &["cli"], why: "colour is for the front end" },
     Ban {
         path: "crate::engine::wound",
-        but: &["engine", "measure", "recording/any.rs", "replay/open.rs"],
+        but: &["attack", "engine", "measure", "recording/any.rs", "replay/open.rs"],
         why: "one file of a room lists the engines; the rest sees the trait",
     },
 ];
