@@ -41,6 +41,7 @@ pub use inspect::{MeshFacts, inspect};
 pub use maps::{MapSources, read_png, write_png};
 pub use open::{Loaded, open};
 pub use scene::SceneSettings;
+pub use source::read_mesh;
 
 /// Something that was changed or passed over while a mesh was read.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]

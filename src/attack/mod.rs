@@ -18,9 +18,12 @@ mod draw;
 mod drive;
 mod fusion;
 pub mod matrix;
+mod mesh_files;
 mod oracle;
 mod paint;
+mod pick;
 mod recording;
+mod scene;
 mod trial;
 
 use std::any::Any;
@@ -80,6 +83,27 @@ pub const TARGETS: &[Target] = &[
         any_bytes: false,
         run: fusion::run,
         recording: fusion::recording,
+    },
+    Target {
+        name: "mesh_files",
+        about: "bytes to the readers of OBJ, PLY and glTF; what is read is sound, and reads back as it was written",
+        any_bytes: true,
+        run: mesh_files::run,
+        recording: mesh_files::recording,
+    },
+    Target {
+        name: "scene",
+        about: "bytes to the reader of scenes; what is read frames a square that is cut",
+        any_bytes: true,
+        run: scene::run,
+        recording: scene::recording,
+    },
+    Target {
+        name: "pick",
+        about: "rays on sheets that coincide, before and after edits, by the hierarchy and by brute force",
+        any_bytes: false,
+        run: pick::run,
+        recording: pick::recording,
     },
 ];
 
