@@ -171,7 +171,8 @@ fn renderer(scene: &Loaded, studio: &dyn Studio) -> Result<Box<dyn Renderer>, Op
     studio.open(maps, &scene.mesh).map_err(OpenError::Render)
 }
 
-fn wound_scene(settings: &SceneSettings, map_size: [u32; 2], viewport: [u32; 2]) -> wound::Scene {
+/// What a scene's settings are to the wound engine, with the size of its colour map and of the view.
+pub fn wound_scene(settings: &SceneSettings, map_size: [u32; 2], viewport: [u32; 2]) -> wound::Scene {
     let SceneSettings { unit_cm, snap_px, fov_y, target, azimuth, zenith, distance, look } = settings.clone();
     wound::Scene { viewport, unit_cm, snap_px, fov_y, target, azimuth, zenith, distance, look, map_size }
 }
