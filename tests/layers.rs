@@ -60,8 +60,19 @@ const ROOMS: &[Room] = &[
     },
     Room {
         name: "measure",
-        may_name: &["assets", "canvas", "engine", "geometry", "mesh", "recording", "replay", "report"],
-        why: "it times whatever there is, and answers with reports",
+        may_name: &[
+            "assets",
+            "canvas",
+            "engine",
+            "geometry",
+            "mesh",
+            "recording",
+            "render",
+            "replay",
+            "report",
+            "verify",
+        ],
+        why: "it times whatever there is, and answers with reports: it shows nothing",
     },
     Room {
         name: "attack",
