@@ -7,11 +7,13 @@
 //! | [`stability`] | random and adversarial cuts: outcomes, and every broken invariant |
 //! | [`exact`] | FC in rational arithmetic: what lines are compared with, and their errors measured from |
 //! | [`accuracy`] | time against error, with a [`plot`] of each |
+//! | [`counts`] | instructions of the hot paths, in `benches/instructions`: beside those that are kept |
 //!
 //! A report is plain data that serializes, and gives itself as [`Table`](crate::report::Table)s; this room writes nowhere but the
 //! scripts of findings. Times are medians with their quartiles, since a shared machine disturbs in one direction only and means follow it.
 
 pub mod accuracy;
+pub mod counts;
 mod drive;
 pub mod exact;
 mod figure;
