@@ -95,7 +95,7 @@ mod tests {
             time: Duration::from_millis(600),
             seed: 4,
             jobs: 1,
-            recordings: vec!["tests/fixtures/recordings/v1.lancet".into()],
+            recordings: vec!["recordings/wound/both-picks-on-one-edge.lancet".into()],
             verify: VerifyOptions::default(),
             fuzz: folder.path().join("none"),
             findings: folder.path().join("findings"),
@@ -104,14 +104,12 @@ mod tests {
         let names: Vec<&str> = report.parts.iter().map(|part| part.name.as_str()).collect();
         assert_eq!(names[..2], ["verify", "stability"]);
         assert_eq!(names.len(), 3 + TARGETS.len());
-        // The fixture has no goldens, which is a failure; nothing else is.
-        assert_eq!(report.parts[0].verdict, Verdict::Failed, "{:?}", report.parts[0]);
-        assert!(report.parts[1..].iter().all(|part| part.verdict != Verdict::Failed), "{report:?}");
+        assert!(report.parts.iter().all(|part| part.verdict == Verdict::Passed), "{report:?}");
         let fuzzed = report.parts.iter().filter(|part| part.name.starts_with("fuzz "));
         assert!(
             fuzzed.clone().all(|part| part.detail.contains("no cargo-fuzz") && part.count > 0),
             "{report:?}"
         );
-        assert_eq!(report.exit_code(), 1);
+        assert_eq!(report.exit_code(), 0);
     }
 }
