@@ -35,12 +35,12 @@ const ROOMS: &[Room] = &[
     },
     Room {
         name: "recording",
-        may_name: &["engine", "mesh"],
+        may_name: &["engine", "mesh", "report"],
         why: "it holds the engines' events and the ids in them, and opens no file",
     },
     Room {
         name: "assets",
-        may_name: &["canvas", "geometry", "mesh", "recording"],
+        may_name: &["canvas", "geometry", "mesh", "recording", "report"],
         why: "it makes meshes and maps of what a recording names, and knows nothing of cuts",
     },
     Room {
@@ -60,8 +60,19 @@ const ROOMS: &[Room] = &[
     },
     Room {
         name: "measure",
-        may_name: &["assets", "canvas", "engine", "geometry", "mesh", "recording", "replay", "report"],
-        why: "it times whatever there is, and answers with reports",
+        may_name: &[
+            "assets",
+            "canvas",
+            "engine",
+            "geometry",
+            "mesh",
+            "recording",
+            "render",
+            "replay",
+            "report",
+            "verify",
+        ],
+        why: "it times whatever there is, and answers with reports: it shows nothing",
     },
     Room {
         name: "attack",

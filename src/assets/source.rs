@@ -31,6 +31,11 @@ impl Format {
     }
 }
 
+/// Whether a file is a mesh, by its name.
+pub fn is_mesh(path: &Path) -> bool {
+    Format::of(path).is_some()
+}
+
 /// A mesh file in memory.
 #[derive(Debug)]
 pub(super) struct Source {

@@ -12,16 +12,27 @@
 //! Not promised: that a panic is a finding. [`Target::run`] lets it pass, since libFuzzer ends before a stack is unwound; [`Target::attempt`]
 //! makes one of it.
 
+pub mod canary;
+mod cuts;
+mod draw;
+mod drive;
+mod fusion;
+pub mod matrix;
 mod mesh_files;
 pub mod nightly;
+mod oracle;
+mod paint;
 mod pick;
 mod recording;
 mod scene;
 pub mod storm;
+mod trial;
 
 use std::any::Any;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+
+pub use trial::judge;
 
 /// A way to attack the program.
 #[derive(Clone, Copy, Debug)]
@@ -46,6 +57,34 @@ pub const TARGETS: &[Target] = &[
         any_bytes: true,
         run: recording::run,
         recording: recording::recording,
+    },
+    Target {
+        name: "fusion",
+        about: "cuts with ends of chosen kinds into small meshes of hard-rounded coordinates",
+        any_bytes: false,
+        run: fusion::run,
+        recording: fusion::recording,
+    },
+    Target {
+        name: "cuts",
+        about: "sequences of cuts over one another, with undo and redo, into scenes of hostile sizes and places",
+        any_bytes: false,
+        run: cuts::run,
+        recording: cuts::recording,
+    },
+    Target {
+        name: "paint",
+        about: "gathering of faces and surface coordinates against brute force on skins that unroll",
+        any_bytes: false,
+        run: paint::run,
+        recording: paint::recording,
+    },
+    Target {
+        name: "canary",
+        about: "`fusion` with a bug planted in the engine, which must be found; without the bug there is nothing to find",
+        any_bytes: false,
+        run: fusion::run,
+        recording: fusion::recording,
     },
     Target {
         name: "mesh_files",
@@ -139,6 +178,11 @@ impl Target {
             finding
         })
     }
+}
+
+/// Does something as far as it goes: a panic ends it.
+fn guarded(work: impl FnOnce()) {
+    drop(catch_unwind(AssertUnwindSafe(work)));
 }
 
 /// What a panic says.

@@ -5,12 +5,17 @@
 //! | [`thesis`] | the thesis's performance tests (Lam 2016, §6.5), beside its figures |
 //! | [`scaling`] | the same cut and pick on meshes from 8 thousand to 4 million faces |
 //! | [`stability`] | random and adversarial cuts: outcomes, and every broken invariant |
+//! | [`exact`] | FC in rational arithmetic: what lines are compared with, and their errors measured from |
+//! | [`accuracy`] | time against error, with a [`plot`] of each |
 //!
 //! A report is plain data that serializes, and gives itself as [`Table`](crate::report::Table)s; this room writes nowhere but the
 //! scripts of findings. Times are medians with their quartiles, since a shared machine disturbs in one direction only and means follow it.
 
+pub mod accuracy;
 mod drive;
+pub mod exact;
 mod figure;
+pub mod plot;
 mod random;
 pub mod scaling;
 pub mod stability;
@@ -44,6 +49,8 @@ pub enum MeasureError {
     Builtin(BuiltinError),
     /// A scene is no mesh.
     Build(BuildError),
+    /// There is nothing of this name to measure.
+    NoSubject(String),
 }
 
 impl fmt::Display for MeasureError {
@@ -57,6 +64,7 @@ impl fmt::Display for MeasureError {
             Self::Render(error) => error.fmt(f),
             Self::Builtin(error) => error.fmt(f),
             Self::Build(error) => error.fmt(f),
+            Self::NoSubject(what) => write!(f, "there is no subject {what}"),
         }
     }
 }

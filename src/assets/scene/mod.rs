@@ -25,10 +25,21 @@ mod tests;
 use std::f64::consts::FRAC_PI_2;
 
 pub(super) use identity::MapHash;
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use super::error::{Fault, FaultKind};
 use crate::canvas::look::{Ambient, Background, Look, Scattering, Shadows, Skin, Spotlight, Switches, Wound};
+
+/// Whether some JSON means to be a scene rather than a script, which has a scene and no mesh beside it.
+pub fn is_description(bytes: &[u8]) -> bool {
+    #[derive(Deserialize)]
+    struct Fields {
+        mesh: Option<IgnoredAny>,
+        scene: Option<IgnoredAny>,
+    }
+    serde_json::from_slice(bytes).is_ok_and(|Fields { mesh, scene }| mesh.is_some() && scene.is_none())
+}
 
 /// A scene file as it is written.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
