@@ -5,6 +5,8 @@ cd "$SRC/lancet"
 cargo +nightly fuzz build -O --debug-assertions
 for file in fuzz/fuzz_targets/*.rs; do
   target=$(basename "$file" .rs)
+  # It is for nights that plant its bug.
+  [[ $target == canary ]] && continue
   cp "fuzz/target/x86_64-unknown-linux-gnu/release/$target" "$OUT/"
   zip -jq "$OUT/${target}_seed_corpus.zip" "fuzz/corpus/$target"/*
   if [[ -f fuzz/dictionaries/$target.dict ]]; then

@@ -10,6 +10,11 @@ use lancet::attack::{Hits, TARGETS, Target};
 const MOST_FILES: usize = 600;
 const MOST_BYTES: u64 = 512 << 10;
 
+/// The targets with a corpus: the canary has none, since without its bug it is another target's double.
+fn kept() -> impl Iterator<Item = &'static Target> {
+    TARGETS.iter().filter(|target| target.name != "canary")
+}
+
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz")
 }
@@ -34,7 +39,7 @@ fn replay(target: &Target) -> (Hits, Vec<String>) {
 
 #[test]
 fn nothing_is_found_in_the_corpora() {
-    for target in TARGETS {
+    for target in kept() {
         let (hits, findings) = replay(target);
         assert!(findings.is_empty(), "\n{}", findings.join("\n"));
         assert!(hits.0.len() >= 3, "{} reaches but {hits:?}", target.name);
@@ -43,7 +48,7 @@ fn nothing_is_found_in_the_corpora() {
 
 #[test]
 fn corpora_are_small() {
-    for target in TARGETS {
+    for target in kept() {
         let files = corpus(target.name);
         let bytes: u64 = files.iter().map(|path| path.metadata().expect("a file").len()).sum();
         assert!((1..=MOST_FILES).contains(&files.len()), "{}: {} files", target.name, files.len());

@@ -37,11 +37,25 @@ pub(super) fn read(bytes: &[u8], buffers: &[Vec<u8>]) -> Result<Soup, Fault> {
 }
 
 fn parse(bytes: &[u8]) -> Result<Gltf, Fault> {
+    check_head(bytes)?;
     let invalid = |error: gltf::Error| Fault::whole(FaultKind::Syntax, error.to_string());
     let Gltf { document, blob } = Gltf::from_slice_without_validation(bytes).map_err(invalid)?;
     let root = document.into_json();
     check_positions(&root)?;
     Ok(Gltf { document: Document::from_json(root).map_err(invalid)?, blob })
+}
+
+/// The crate subtracts a GLB's head from the length that the head says, whatever that is.
+fn check_head(bytes: &[u8]) -> Result<(), Fault> {
+    const HEAD: u32 = 12;
+    let length = bytes.get(8..12).and_then(|length| length.try_into().ok()).map(u32::from_le_bytes);
+    match length.filter(|&length| bytes.starts_with(b"glTF") && length < HEAD) {
+        None => Ok(()),
+        Some(length) => {
+            let detail = format!("the file says that it is {length} bytes long, less than its own head");
+            Err(Fault::byte(8, FaultKind::Syntax, detail))
+        }
+    }
 }
 
 /// The crate's validation takes it that the accessor of positions exists, and panics where it does not.

@@ -5,10 +5,10 @@
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::parts::new_inputs;
-use super::{Night, NightFinding, Part, Progress};
+use super::{CANARY, Night, NightFinding, Part, Progress, Verdict};
 use crate::assets;
 use crate::attack::Target;
 
@@ -16,6 +16,8 @@ use crate::attack::Target;
 const SLOWEST: u32 = 20;
 /// Most that one input may set aside at once, MB; inputs are of some kilobytes.
 const MOST_MB: u32 = 512;
+/// Seconds within which the planted bug must be found.
+const CANARY_SECONDS: u32 = 60;
 /// What libFuzzer says before the path of an input that broke something.
 const WRITTEN: &str = "Test unit written to ";
 
@@ -51,6 +53,30 @@ impl Tool {
     fn cargo(&self, arguments: &[&str]) -> std::io::Result<Output> {
         let mut command = Command::new("cargo");
         command.args(["+nightly", "fuzz"]).args(arguments).stdin(Stdio::null()).output()
+    }
+
+    /// Runs the program with the planted bug until it is found; a minute without it is a failure. It is built apart, so that the other
+    /// targets need not be built again.
+    pub(super) fn canary(&self, night: &Night, progress: Progress<'_>) -> Part {
+        let target = self.fuzz.join("target").join(CANARY).display().to_string();
+        let options = ["--fuzz-dir", &self.folder(), "--target-dir", &target, "--features", CANARY];
+        progress("building the program with the planted bug");
+        match self.cargo(&[&["build"], &options[..], &[CANARY]].concat()) {
+            Ok(built) if built.status.success() => {}
+            Ok(built) => return Part::unable(last_line(&text(&built))),
+            Err(error) => return Part::unable(error.to_string()),
+        }
+        progress(CANARY);
+        let (clock, seed) = (Instant::now(), format!("-seed={}", night.seed as u32 | 1));
+        let limit = format!("-max_total_time={CANARY_SECONDS}");
+        let findings = night.findings.join(CANARY);
+        let mut command = Command::new("cargo");
+        command.args(["+nightly", "fuzz", "run"]).args(options).args([CANARY, "--", &seed, &limit]);
+        command.env("LANCET_FINDINGS", &findings).stdin(Stdio::null());
+        match command.output() {
+            Ok(output) => canary_of(&part_of(output.status.success(), &text(&output)), clock.elapsed()),
+            Err(error) => Part::unable(error.to_string()),
+        }
     }
 
     /// Runs a target for some time.
@@ -112,6 +138,23 @@ fn part_of(success: bool, text: &str) -> Part {
     }
 }
 
+/// A canary's run, which must break: what was found is what was planted.
+fn canary_of(run: &Part, time: Duration) -> Part {
+    match run.findings.first() {
+        Some(found) => Part::ran(
+            run.count,
+            format!("found in {:.1} s: {}", time.as_secs_f64(), found.detail),
+            Vec::new(),
+        ),
+        None if run.verdict == Verdict::Passed => {
+            let detail =
+                format!("the planted bug was not found in {CANARY_SECONDS} s: this night says nothing");
+            Part::ran(run.count, "", vec![NightFinding { detail, file: None }])
+        }
+        None => run.clone(),
+    }
+}
+
 /// What broke, and the recording of it if one was written.
 fn finding(text: &str, input: PathBuf) -> NightFinding {
     let after_panic = text.lines().skip_while(|line| !line.contains("panicked at")).nth(1);
@@ -124,7 +167,6 @@ fn finding(text: &str, input: PathBuf) -> NightFinding {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::attack::nightly::Verdict;
 
     #[test]
     fn what_libfuzzer_says_is_read() {
@@ -142,6 +184,15 @@ mod tests {
         let without = broken.replace("the recording of it", "");
         assert_eq!(part_of(false, &without).findings[0].file, Some("x/crash-1".into()));
         assert_eq!(part_of(false, "error: no such target\n").verdict, Verdict::Unable);
+    }
+
+    #[test]
+    fn a_canary_passes_by_being_found() {
+        let found = NightFinding { detail: "at".into(), file: None };
+        let verdict = |run: Part| canary_of(&run, Duration::from_secs(2)).verdict;
+        assert_eq!(verdict(Part::ran(9, "", vec![found])), Verdict::Passed);
+        assert_eq!(verdict(Part::ran(9, "", Vec::new())), Verdict::Failed);
+        assert_eq!(verdict(Part::unable("no such program")), Verdict::Unable);
     }
 
     #[test]

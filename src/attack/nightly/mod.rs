@@ -3,9 +3,11 @@
 //! | part | what it does | its time |
 //! | --- | --- | --- |
 //! | verify | every recording against its goldens | as long as it takes |
-//! | stability | random and hostile cuts, in rounds with a seed each | a sixth of what is left |
+//! | stability | random and hostile cuts, in rounds with a seed each | an eighth of what is left |
+//! | canary | a program with a planted bug, which must be found: else the night does not count | a minute at most |
 //! | fuzz TARGET | libFuzzer, or a [`super::storm`] where there is none | the rest, in equal shares |
 //! | reached | the corpora, old and new, run again: what the night reached | as long as it takes |
+//! | matrix | configurations and degenerate cases among that, and drawn until none is missing | an eighth |
 //!
 //! libFuzzer is started as `cargo +nightly fuzz` where that and the folder fuzz/ are there (`fuzzers`), and says so in the report where not. Its new
 //! inputs go into a folder of the night's, so that a checkout stays as it is. Whatever is found is written there too, as a recording where it is one.
@@ -21,7 +23,7 @@ use std::time::{Duration, Instant};
 
 pub use report::{NightFinding, NightReport, Part, Verdict};
 
-use super::{Hits, TARGETS};
+use super::{Hits, TARGETS, Target};
 use crate::verify::VerifyOptions;
 
 /// What a night is to do.
@@ -43,8 +45,11 @@ pub struct Night {
     pub findings: PathBuf,
 }
 
-/// Stability's share of the time that verifying leaves: one in so many parts.
-const STABILITY_SHARE: u32 = 6;
+/// Stability's share of the time that verifying leaves, and the matrix's: one in so many parts.
+const SMALL_SHARE: u32 = 8;
+
+/// The target that has a bug to find.
+const CANARY: &str = "canary";
 
 /// Told what is being done.
 pub type Progress<'a> = &'a dyn Fn(&str);
@@ -55,25 +60,56 @@ impl Night {
         let clock = Instant::now();
         let mut report = NightReport::new(self.seed);
         report.parts.push(timed("verify", progress, || parts::verify(self)));
-        let left = self.time.saturating_sub(clock.elapsed());
-        report.parts.push(timed("stability", progress, || parts::stability(self, left / STABILITY_SHARE)));
+        let small = self.time.saturating_sub(clock.elapsed()) / SMALL_SHARE;
+        report.parts.push(timed("stability", progress, || parts::stability(self, small)));
         let tool = fuzzers::Tool::find(&self.fuzz, progress);
-        for (number, target) in TARGETS.iter().enumerate() {
-            // What one part leaves over is shared by those after it.
-            let left = self.time.saturating_sub(clock.elapsed());
-            let share = left / u32::try_from(TARGETS.len() - number).unwrap_or(1);
+        report.parts.push(timed("canary", progress, || match &tool {
+            Ok(tool) => tool.canary(self, progress),
+            Err(why) => Part::skipped(format!("{why}: no second program with the bug in it")),
+        }));
+        self.fuzz_all(&tool, clock, small, progress, &mut report);
+        let mut reached = Reached::default();
+        report.parts.push(timed("reached", progress, || parts::reached(self, &mut reached)));
+        report.parts.push(timed("matrix", progress, || {
+            let (part, matrix) = parts::matrix(self, &reached.all, small);
+            report.matrix = Some(matrix);
+            part
+        }));
+        report.reached = reached.by_target.0;
+        report.seconds = clock.elapsed().as_secs_f64();
+        report
+    }
+
+    /// Every target in turn. What one leaves over of its share is shared by those after it.
+    fn fuzz_all(
+        &self,
+        tool: &Result<fuzzers::Tool, String>,
+        clock: Instant,
+        reserved: Duration,
+        progress: Progress<'_>,
+        report: &mut NightReport,
+    ) {
+        // Without its bug the canary is another target's double.
+        let targets: Vec<&'static Target> = TARGETS.iter().filter(|target| target.name != CANARY).collect();
+        for (number, &target) in targets.iter().enumerate() {
+            let left = self.time.saturating_sub(clock.elapsed() + reserved);
+            let share = left / u32::try_from(targets.len() - number).unwrap_or(1);
             let name = format!("fuzz {}", target.name);
-            report.parts.push(timed(&name, progress, || match &tool {
+            report.parts.push(timed(&name, progress, || match tool {
                 Ok(tool) => tool.fuzz(self, target, share),
                 Err(why) => parts::storm(self, target, share, why),
             }));
         }
-        let mut hits = Hits::default();
-        report.parts.push(timed("reached", progress, || parts::reached(self, &mut hits)));
-        report.reached = hits.0;
-        report.seconds = clock.elapsed().as_secs_f64();
-        report
     }
+}
+
+/// What the corpora reach.
+#[derive(Debug, Default)]
+struct Reached {
+    /// All together.
+    all: Hits,
+    /// The same as `TARGET: WHAT`.
+    by_target: Hits,
 }
 
 /// Runs a part, with its name and its time.
@@ -95,7 +131,7 @@ mod tests {
             time: Duration::from_millis(600),
             seed: 4,
             jobs: 1,
-            recordings: vec!["tests/fixtures/recordings/v1.lancet".into()],
+            recordings: vec!["recordings/wound/both-picks-on-one-edge.lancet".into()],
             verify: VerifyOptions::default(),
             fuzz: folder.path().join("none"),
             findings: folder.path().join("findings"),
@@ -103,15 +139,20 @@ mod tests {
         let report = night.run(&|_| {});
         let names: Vec<&str> = report.parts.iter().map(|part| part.name.as_str()).collect();
         assert_eq!(names[..2], ["verify", "stability"]);
-        assert_eq!(names.len(), 3 + TARGETS.len());
-        // The fixture has no goldens, which is a failure; nothing else is.
-        assert_eq!(report.parts[0].verdict, Verdict::Failed, "{:?}", report.parts[0]);
-        assert!(report.parts[1..].iter().all(|part| part.verdict != Verdict::Failed), "{report:?}");
+        assert_eq!(names.len(), 5 + TARGETS.len() - 1);
+        let verdict =
+            |name: &str| report.parts.iter().find(|part| part.name == name).expect("a part").verdict;
+        assert_eq!(verdict("canary"), Verdict::Skipped);
+        let usual = report.parts.iter().filter(|part| !["canary", "matrix"].contains(&part.name.as_str()));
+        assert!(usual.into_iter().all(|part| part.verdict == Verdict::Passed), "{report:?}");
+        // Half a second is too short to reach everything, and that is a failure.
+        let empty = report.matrix.as_ref().expect("a matrix").empty().len();
+        assert_eq!(verdict("matrix") == Verdict::Failed, empty > 0, "{empty}");
         let fuzzed = report.parts.iter().filter(|part| part.name.starts_with("fuzz "));
         assert!(
             fuzzed.clone().all(|part| part.detail.contains("no cargo-fuzz") && part.count > 0),
             "{report:?}"
         );
-        assert_eq!(report.exit_code(), 1);
+        assert_eq!(report.exit_code(), u8::from(empty > 0));
     }
 }

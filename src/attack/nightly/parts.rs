@@ -3,15 +3,18 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use super::{Night, NightFinding, Part};
+use super::{Night, NightFinding, Part, Reached};
 use crate::assets;
+use crate::attack::matrix::{self, Matrix};
 use crate::attack::storm::Storm;
 use crate::attack::{Finding, Hits, TARGETS, Target};
 use crate::measure::stability;
 use crate::verify;
 
-/// Cuts of a round of stability: enough to have a few on every scene.
-const CUTS: usize = 2_600;
+/// Cuts of the first round of stability; each round has twice those of the one before.
+const FIRST_CUTS: usize = 100;
+/// Cuts of a round at most, so that the clock is looked at now and then.
+const MOST_CUTS: usize = 12_800;
 /// Inputs between two looks at the clock.
 const GUST: usize = 16;
 
@@ -38,9 +41,10 @@ pub(super) fn verify(night: &Night) -> Part {
 /// Rounds of random cuts until the time is up, one at least; each with a seed of its own.
 pub(super) fn stability(night: &Night, time: Duration) -> Part {
     let (clock, mut cuts, mut findings) = (Instant::now(), 0, Vec::new());
-    for round in 0.. {
+    for round in 0u64.. {
+        let in_round = (FIRST_CUTS << round.min(7)).min(MOST_CUTS);
         let options =
-            stability::Options { cuts: CUTS, seed: night.seed.wrapping_add(round), jobs: night.jobs };
+            stability::Options { cuts: in_round, seed: night.seed.wrapping_add(round), jobs: night.jobs };
         let report = match stability::measure(&options, &|_, _, _| {}) {
             Ok(report) => report,
             Err(error) => return Part::unable(error.to_string()),
@@ -55,7 +59,7 @@ pub(super) fn stability(night: &Night, time: Duration) -> Part {
             break;
         }
     }
-    Part::ran(cuts, format!("seeds {} and on, {CUTS} cuts each", night.seed), findings)
+    Part::ran(cuts, format!("a seed for each round, from {}", night.seed), findings)
 }
 
 /// A target without libFuzzer, until the time is up or something is found.
@@ -91,16 +95,19 @@ fn keep(night: &Night, target: &Target, finding: &Finding, data: &[u8]) -> Night
 }
 
 /// Runs every corpus again, that of the checkout and that of the night.
-pub(super) fn reached(night: &Night, hits: &mut Hits) -> Part {
+pub(super) fn reached(night: &Night, hits: &mut Reached) -> Part {
     let (mut count, mut findings) = (0, Vec::new());
     for target in TARGETS {
         let folders = [night.fuzz.join("corpus").join(target.name), new_inputs(night, target)];
         for (name, data) in folders.iter().flat_map(|folder| inputs(folder)) {
             count += 1;
             match target.attempt(&data) {
-                Ok(reached) => reached.0.iter().for_each(|(what, n)| {
-                    *hits.0.entry(format!("{}: {what}", target.name)).or_default() += n;
-                }),
+                Ok(reached) => {
+                    hits.all.add(&reached);
+                    let named =
+                        reached.0.into_iter().map(|(what, n)| (format!("{}: {what}", target.name), n));
+                    hits.by_target.add(&Hits(named.collect()));
+                }
                 Err(finding) => {
                     let found = keep(night, target, &finding, &data);
                     findings.push(NightFinding { detail: format!("{name}: {}", found.detail), ..found });
@@ -108,7 +115,32 @@ pub(super) fn reached(night: &Night, hits: &mut Hits) -> Part {
             }
         }
     }
-    Part::ran(count, format!("{} things of a name", hits.0.len()), findings)
+    Part::ran(count, format!("{} things of a name", hits.by_target.0.len()), findings)
+}
+
+/// The matrix of what was reached; more inputs are drawn while a cell that can be reached is empty, until the time is up.
+pub(super) fn matrix(night: &Night, reached: &Hits, time: Duration) -> (Part, Matrix) {
+    let (clock, mut drawn, mut findings) = (Instant::now(), 0, Vec::new());
+    let mut matrix = Matrix::of(reached);
+    while !matrix.empty().is_empty() && findings.is_empty() && clock.elapsed() < time {
+        match matrix::sweep(night.seed.wrapping_add(drawn), GUST) {
+            Ok(more) => {
+                matrix.cells.iter_mut().zip(&more.cells).for_each(|(cell, more)| cell.hits += more.hits)
+            }
+            Err(finding) => findings.push(NightFinding { detail: finding.to_string(), file: None }),
+        }
+        drawn += GUST as u64;
+    }
+    let never = matrix.empty().into_iter().map(|cell| (cell, "is never met".to_owned()));
+    let wrong = matrix.wrong().into_iter().map(|cell| {
+        let why = cell.impossible.unwrap_or_default();
+        (cell, format!("is met, and it was said to be impossible: {why}"))
+    });
+    findings.extend(never.chain(wrong).map(|(cell, what)| NightFinding {
+        detail: format!("{} {}: {what}", cell.configuration, cell.degeneracy.title()),
+        file: None,
+    }));
+    (Part::ran(drawn, format!("{} cells", matrix.cells.len()), findings), matrix)
 }
 
 /// Where libFuzzer puts what it makes of a target in this night.

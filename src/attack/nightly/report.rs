@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
+use crate::attack::matrix::Matrix;
 use crate::report::{Row, Table};
 
 /// How a part ended.
@@ -17,6 +18,8 @@ pub enum Verdict {
     Failed,
     /// It could not run.
     Unable,
+    /// It was not run, for a reason.
+    Skipped,
 }
 
 impl Verdict {
@@ -26,6 +29,7 @@ impl Verdict {
             Self::Passed => "passed",
             Self::Failed => "failed",
             Self::Unable => "unable",
+            Self::Skipped => "skipped",
         }
     }
 }
@@ -63,6 +67,11 @@ impl Part {
         Self { name: String::new(), seconds: 0.0, verdict, count, detail: detail.into(), findings }
     }
 
+    /// A part that was not run.
+    pub(super) fn skipped(why: impl Into<String>) -> Self {
+        Self { verdict: Verdict::Skipped, ..Self::ran(0, why, Vec::new()) }
+    }
+
     /// A part that could not run.
     pub(super) fn unable(why: impl Into<String>) -> Self {
         Self { verdict: Verdict::Unable, ..Self::ran(0, why, Vec::new()) }
@@ -82,11 +91,13 @@ pub struct NightReport {
     pub parts: Vec<Part>,
     /// What the corpora reach, and how often, as `TARGET: WHAT`.
     pub reached: BTreeMap<String, u64>,
+    /// Which configurations were met in which degenerate cases.
+    pub matrix: Option<Matrix>,
 }
 
 impl NightReport {
     pub(super) fn new(seed: u64) -> Self {
-        Self { schema: 1, seed, seconds: 0.0, parts: Vec::new(), reached: BTreeMap::new() }
+        Self { schema: 1, seed, seconds: 0.0, parts: Vec::new(), reached: BTreeMap::new(), matrix: None }
     }
 
     /// 0 nothing was found, 1 something was, 2 a part could not run.
@@ -95,7 +106,7 @@ impl NightReport {
         if any(Verdict::Unable) { 2 } else { u8::from(any(Verdict::Failed)) }
     }
 
-    /// For people: the parts, then what was reached.
+    /// For people: the parts, then what was reached, then the matrix.
     pub fn tables(&self) -> Vec<Table> {
         let part = |part: &Part| {
             let seconds = format!("{:.1}", part.seconds);
@@ -107,8 +118,11 @@ impl NightReport {
             &["part", "seconds", "runs", "findings", "verdict"],
             self.parts.iter().map(part),
         );
-        let reached = self.reached.iter().map(|(name, count)| vec![name.clone(), count.to_string()]);
-        vec![parts, table("What the corpora reach", &["what", "inputs"], reached)]
+        // The cells of the matrix have a table of their own.
+        let plain = self.reached.iter().filter(|(name, _)| !name.contains(": cell "));
+        let reached = plain.map(|(name, count)| vec![name.clone(), count.to_string()]);
+        let reached = table("What the corpora reach", &["what", "inputs"], reached);
+        [parts, reached].into_iter().chain(self.matrix.iter().flat_map(Matrix::tables)).collect()
     }
 }
 
