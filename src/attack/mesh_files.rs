@@ -18,7 +18,7 @@ use crate::mesh::{Mesh, check};
 /// The readers, by the first byte.
 const READERS: [(u8, &str); 3] = [(b'o', "file.obj"), (b'p', "file.ply"), (b'g', "file.glb")];
 /// Faces that a byte of a file may make, beside a few: a glTF may show a mesh more than once.
-const MOST_FACES_A_BYTE: usize = 16;
+const MOST_FACES_A_BYTE: usize = 64;
 
 /// The reader that a file goes to, and the file.
 fn split(data: &[u8]) -> Option<(&'static Path, &[u8])> {

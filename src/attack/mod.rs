@@ -19,11 +19,13 @@ mod drive;
 mod fusion;
 pub mod matrix;
 mod mesh_files;
+pub mod nightly;
 mod oracle;
 mod paint;
 mod pick;
 mod recording;
 mod scene;
+pub mod storm;
 mod trial;
 
 use std::any::Any;

@@ -1,5 +1,6 @@
 //! What the user typed: the one source of the parser, the help, the completions and the man page.
 
+mod nightly;
 mod values;
 
 use std::path::PathBuf;
@@ -9,6 +10,7 @@ use clap::{Parser, Subcommand, ValueEnum, ValueHint};
 use crate::replay::Plant;
 use crate::report::Stop;
 use crate::verify::Shard;
+pub(super) use nightly::Nightly;
 pub(super) use values::{Setting, Size, Target, Until};
 
 const AFTER: &str = "Exit status: 0 when all is verified, 1 when something diverged or an invariant broke, 2 for bad input or when \
@@ -37,6 +39,7 @@ pub(super) enum Command {
     Diff(Diff),
     Check(Check),
     Measure(Measure),
+    Nightly(Nightly),
     /// List the scenes that are made by code
     Scenes,
     /// Say what the program and the machine are

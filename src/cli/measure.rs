@@ -73,7 +73,7 @@ fn answer(
 }
 
 /// A table of figures: all but the first column stand to the right.
-fn show(table: &Table, to: &mut Channel<'_>) -> io::Result<()> {
+pub(super) fn show(table: &Table, to: &mut Channel<'_>) -> io::Result<()> {
     writeln!(to, "{}", to.faint(&table.title))?;
     let head = |(i, head): (usize, &String)| if i == 0 { head.clone() } else { format!(">{head}") };
     let heads: Vec<String> = table.columns.iter().enumerate().map(head).collect();

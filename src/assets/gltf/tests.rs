@@ -4,6 +4,7 @@ use proptest::prelude::*;
 use serde_json::{Value, json};
 
 use super::*;
+use crate::assets::error::Place;
 
 /// A square (strip order) with texture coordinates, and indices of a list.
 fn buffer() -> Vec<u8> {
@@ -175,5 +176,23 @@ proptest! {
         let _ = buffer_uris(&bytes);
         bytes.truncate(cut.index(bytes.len()));
         let _ = buffer_uris(&bytes);
+    }
+}
+
+#[test]
+fn a_mesh_that_is_shown_more_often_than_the_file_justifies_is_refused() {
+    let parsed = parse(document().to_string().as_bytes()).expect("valid").document;
+    let buffers = [buffer()];
+    let show = |most: usize| Collector { buffers: &buffers, most, ..Collector::new() }.scene(&parsed);
+    // Three squares of four nodes.
+    assert_eq!(show(12), Ok(()));
+    assert_eq!(show(11).map_err(|fault| fault.kind), Err(FaultKind::TooLarge));
+}
+
+#[test]
+fn a_binary_file_that_says_it_is_shorter_than_its_head_is_refused() {
+    for length in [0u32, 2, 11] {
+        let bytes = [&b"glTF\x02\0\0\0"[..], &length.to_le_bytes(), b"\0\0\0\0JSON"].concat();
+        assert_eq!(read(&bytes, &[]).map_err(|fault| fault.place).err(), Some(Place::Byte(8)), "{length}");
     }
 }

@@ -3,6 +3,7 @@
 use arbitrary::{Arbitrary, Result, Unstructured};
 use glam::DVec3;
 
+use crate::geometry::predicates::collinear;
 use crate::mesh::{EdgeId, FaceId, IndexedMesh, Mesh, NodeId};
 
 /// Nodes along a side of a sheet, at most.
@@ -25,8 +26,17 @@ pub(super) fn sheets(bytes: &mut Unstructured<'_>) -> Result<IndexedMesh> {
         };
         sheet(bytes, depth, &mut mesh)?;
     }
-    mesh.positions.iter_mut().for_each(|p| *p *= DVec3::from(scale));
-    Ok(mesh)
+    let lies_askew = bool::arbitrary(bytes)?;
+    for p in &mut mesh.positions {
+        *p *= DVec3::from(scale);
+        if lies_askew {
+            *p += DVec3::new(0.7 * p.y, 0.3 * p.z, 0.9 * p.x);
+        }
+    }
+    let corner = |i: u32| mesh.positions[i as usize];
+    let is_flat = mesh.faces.iter().any(|&[a, b, c]| collinear(corner(a), corner(b), corner(c)));
+    // What lies askew is rounded, and a sliver may become a line by it: no reader lets that pass.
+    if is_flat { Err(arbitrary::Error::IncorrectFormat) } else { Ok(mesh) }
 }
 
 /// Nodes on a lattice, each moved by three sixteenths of its distance at most: so no face is flat, and none folds over another of its sheet but

@@ -134,6 +134,10 @@ impl Ray {
                 }
                 continue;
             }
+            // A component below 1/f64::MAX has no reciprocal: as slow as that it rules nothing out.
+            if !inverse[k].is_finite() {
+                continue;
+            }
             let (a, b) = (lo * inverse[k], hi * inverse[k]);
             // A few roundings at most lie between these and the true parameters.
             near = near.max(a.min(b) * (1.0 - 1e-14));

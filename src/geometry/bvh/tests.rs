@@ -96,3 +96,17 @@ fn a_ray_along_an_axis_through_a_face_of_a_box_enters_it() {
     });
     assert_eq!(seen, 1);
 }
+
+#[test]
+fn a_ray_that_hardly_moves_along_an_axis_misses_no_box_on_its_way() {
+    // The box's lower side lies where the ray begins, and 0 times the reciprocal of the smallest float is no number.
+    let bounds = |_: u32| Aabb::around(&[DVec3::new(1.0, -1.0, 5e-324), DVec3::new(2.0, 1.0, 5e-324)]);
+    let tree = Bvh::build(1, &bounds);
+    let mut met = Vec::new();
+    let ray = Ray { origin: DVec3::ZERO, direction: DVec3::new(1.5, 0.0, 5e-324) };
+    tree.along(ray, f64::INFINITY, |item| {
+        met.push(item);
+        f64::INFINITY
+    });
+    assert_eq!(met, [0]);
+}
