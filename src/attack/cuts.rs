@@ -4,7 +4,7 @@
 //! again. Scenes of code are there for their seams and for being larger than a cut, so that cuts can have nothing to do with each other.
 
 use super::draw::{Dice, events, shape};
-use super::trial::{Trial, builtins, script};
+use super::trial::{Look, Trial, builtins, script};
 use super::{Finding, Outcome, guarded};
 use crate::engine::wound::WoundEvent;
 use crate::recording::{InlineMesh, Recording, SceneRef};
@@ -19,7 +19,7 @@ const SHIFTS: [f64; 6] = [0.0, 0.0, 1.0, 1e3, 1e6, -1e9];
 /// Draws the recording, runs it, and looks at it with every oracle.
 pub(super) fn run(data: &[u8]) -> Outcome {
     let mut dice = Dice::new(data);
-    match Trial::begin(begin(&mut dice), true) {
+    match Trial::begin(begin(&mut dice), Look::Everything) {
         Some(mut trial) => {
             draw(&mut trial, &mut dice);
             trial.end()
@@ -31,7 +31,7 @@ pub(super) fn run(data: &[u8]) -> Outcome {
 /// The recording as a script.
 pub(super) fn recording(data: &[u8]) -> Option<Vec<u8>> {
     let mut dice = Dice::new(data);
-    let mut trial = Trial::begin(begin(&mut dice), false)?;
+    let mut trial = Trial::begin(begin(&mut dice), Look::Nothing)?;
     guarded(|| draw(&mut trial, &mut dice));
     Some(script(&trial.recording))
 }

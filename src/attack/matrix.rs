@@ -7,7 +7,9 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::{Hits, fusion, oracle::Witness};
+use super::oracle::Witness;
+use super::trial::Look;
+use super::{Hits, fusion};
 use crate::engine::wound::Cut;
 use crate::engine::wound::chain::At;
 use crate::engine::wound::plane::CutPlane;
@@ -271,13 +273,27 @@ fn is_sliver([a, b, c]: [glam::DVec3; 3]) -> bool {
     longest * longest >= SLIVER * (b - a).cross(c - a).length()
 }
 
-/// Draws so many inputs of the target `fusion`, and counts the cells that they reach. The first finding ends it.
+/// Draws so many inputs of the target `fusion`, and counts the cells that they reach. No oracle looks at them.
 pub fn sweep(seed: u64, inputs: usize) -> Result<Matrix, Box<super::Finding>> {
     let mut hits = Hits::default();
     for part in 0..inputs as u64 {
         let mut random = Random::of(seed, part, "matrix");
         let bytes: Vec<u8> = (0..fusion::BYTES).map(|_| random.any() as u8).collect();
-        hits.add(&fusion::run(&bytes)?);
+        hits.add(&fusion::look(&bytes, Look::Cells)?);
     }
     Ok(Matrix::of(&hits))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_cell_that_can_be_reached_is_and_no_other() {
+        let matrix = sweep(1, 1_000).expect("no finding");
+        assert_eq!(matrix.empty(), Vec::<&Cell>::new());
+        assert_eq!(matrix.wrong(), Vec::<&Cell>::new());
+        let [counts, reasons] = &matrix.tables()[..] else { panic!("two tables") };
+        assert_eq!((counts.rows.len(), counts.columns.len(), reasons.rows.len()), (9, 10, 4));
+    }
 }

@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 use glam::{DVec2, DVec3};
 
 use super::draw::Dice;
-use super::trial::{Trial, script};
+use super::trial::{Look, Trial, script};
 use super::{Finding, Hits, Outcome, drive};
 use crate::engine::wound::surface::{Placed, Walk, walk};
 use crate::engine::wound::{CameraChange, Cut, Mode, Pick, WoundEvent};
@@ -115,7 +115,7 @@ impl Case {
 
     fn judge(&self) -> Result<Hits, Box<Finding>> {
         let mut hits = super::judge(&self.recording())?;
-        let Some(trial) = Trial::begin(self.recording().with_events(Vec::new()), false) else {
+        let Some(trial) = Trial::begin(self.recording().with_events(Vec::new()), Look::Nothing) else {
             return Err(Finding::new("scene", "a drawn sheet is refused"));
         };
         let mut state = trial.state;

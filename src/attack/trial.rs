@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 
 use super::drive::{self, Ran};
 use super::oracle::{self, Witness};
-use super::{Finding, Hits, Outcome};
+use super::{Finding, Hits, Outcome, matrix};
 use crate::assets::{self, CacheOptions};
 use crate::engine::Engine;
 use crate::engine::wound::{Edit, Scene, State, Wound, WoundEvent};
@@ -69,13 +69,23 @@ impl Ground {
     }
 }
 
+/// What is looked at of an event.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Look {
+    /// Nothing: it is run for what it leads to.
+    Nothing,
+    /// Which cells of the matrix it reaches.
+    Cells,
+    /// By every oracle.
+    Everything,
+}
+
 /// A recording, and the state that it has led to.
 pub(super) struct Trial {
     pub(super) recording: Recording<WoundEvent>,
     pub(super) state: State,
     ground: Ground,
-    /// Whether oracles look at each event.
-    judged: bool,
+    look: Look,
     done: Vec<Edit>,
     undone: Vec<Edit>,
     hits: Hits,
@@ -87,11 +97,11 @@ pub(super) struct Trial {
 
 impl Trial {
     /// Before the first event. None where there is no such scene.
-    pub(super) fn begin(recording: Recording<WoundEvent>, judged: bool) -> Option<Self> {
+    pub(super) fn begin(recording: Recording<WoundEvent>, look: Look) -> Option<Self> {
         let ground = Ground::of(&recording)?;
         let (done, undone, hits, finding, last) = Default::default();
         let state = ground.state();
-        Some(Self { recording, state, ground, judged, done, undone, hits, finding, last })
+        Some(Self { recording, state, ground, look, done, undone, hits, finding, last })
     }
 
     /// A recording of nothing yet.
@@ -150,7 +160,7 @@ impl Trial {
     }
 
     fn cut(&mut self, key: u32, event: &WoundEvent) {
-        let before = self.judged.then(|| self.state.clone());
+        let before = (self.look != Look::Nothing).then(|| self.state.clone());
         let seed = event_seed(self.recording.seed, key, "cut");
         let ran = drive::run(&mut self.state, event, seed, None);
         if let Some(before) = before {
@@ -169,6 +179,10 @@ impl Trial {
         let (ground, after) = (&self.ground, &self.state);
         let witness =
             Witness { ground, before: &before, after, event, seed, key, ran, earlier: self.last.as_ref() };
+        matrix::note(&witness, &mut self.hits);
+        if self.look == Look::Cells {
+            return;
+        }
         if let Err(finding) = oracle::look(&witness, &mut self.hits) {
             self.finding = Some(finding);
         }
@@ -181,6 +195,7 @@ impl Trial {
     pub(super) fn end(mut self) -> Outcome {
         let found = match self.finding.take() {
             Some(finding) => Err(finding),
+            None if self.look != Look::Everything => Ok(()),
             None => oracle::whole(&self.ground, &self.recording, &self.state, &mut self.hits),
         };
         match found {
@@ -192,7 +207,7 @@ impl Trial {
 
 /// Runs a recording, and looks at it with every oracle.
 pub fn judge(recording: &Recording<WoundEvent>) -> Outcome {
-    let Some(mut trial) = Trial::begin(recording.with_events(Vec::new()), true) else {
+    let Some(mut trial) = Trial::begin(recording.with_events(Vec::new()), Look::Everything) else {
         return Err(Finding::new("scene", format!("there is no {}", recording.scene)));
     };
     recording.events.iter().for_each(|keyed| trial.run_keyed(keyed.key, keyed.event.clone()));

@@ -10,13 +10,20 @@ use crate::render::{self, Choice};
 
 pub(super) fn run(console: &mut Console<'_>) -> Done {
     let build = if cfg!(debug_assertions) { "debug" } else { "release" };
-    let features = [("gltf", cfg!(feature = "gltf")), ("gpu", cfg!(feature = "gpu"))];
+    let canary = cfg!(feature = "canary");
+    let features = [("gltf", cfg!(feature = "gltf")), ("gpu", cfg!(feature = "gpu")), ("canary", canary)];
     let features: Vec<&str> = features.into_iter().filter(|(_, on)| *on).map(|(name, _)| name).collect();
     let gpu = render::studio(Choice::Gpu).map_or_else(|error| error.to_string(), |s| s.adapter().to_string());
     let threads = available_parallelism().map_or_else(|e| e.to_string(), |n| n.to_string());
     let mut table = TextTable::pairs();
     table.pair("lancet", format!("{} ({build})", env!("CARGO_PKG_VERSION")));
     table.pair("features", if features.is_empty() { "none".into() } else { features.join(", ") });
+    if canary {
+        table.pair(
+            "CANARY",
+            "a bug is planted in the engine: this program is for trying the fuzzers, and verifies nothing",
+        );
+    }
     table.pair("gpu", gpu);
     table.pair("engines", ENGINES.join(", "));
     table.pair("recordings", format!("format versions 1 to {VERSION}"));

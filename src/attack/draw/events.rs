@@ -43,7 +43,8 @@ fn camera(dice: &mut Dice<'_>) -> CameraChange {
 
 fn by_ids(trial: &Trial, dice: &mut Dice<'_>) -> WoundEvent {
     let (mesh, gutter) = (&trial.state.mesh, &trial.gutter()[..]);
-    let [from, to] = Picker { mesh, gutter, dice }.pair();
+    let eye = trial.state.control.camera.eye();
+    let [from, to] = Picker { mesh, gutter, eye, dice }.pair();
     WoundEvent::Cut { from, to }
 }
 

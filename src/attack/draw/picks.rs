@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::Dice;
 use crate::engine::wound::Pick;
+use crate::geometry::predicates::orient3d;
 use crate::mesh::{Edge, EdgeId, FaceId, Mesh, NodeId};
 
 /// What a pick is.
@@ -36,6 +37,7 @@ const NEARLY: [f64; 3] = [1e-10, 1.0 / 1_099_511_627_776.0, 1e-13];
 pub(super) struct Picker<'a, 'b> {
     pub(super) mesh: &'a Mesh,
     pub(super) gutter: &'a [FaceId],
+    pub(super) eye: DVec3,
     pub(super) dice: &'a mut Dice<'b>,
 }
 
@@ -66,12 +68,23 @@ impl Picker<'_, '_> {
     /// Any face, or one of a kind that there are few of.
     fn face(&mut self) -> FaceId {
         let any = FaceId::of(self.dice.below(self.mesh.face_count()));
-        match self.dice.below(6) {
+        match self.dice.below(8) {
             0 | 1 if !self.gutter.is_empty() => self.dice.any_of(self.gutter).unwrap_or(any),
             2 => self.thinnest(),
             3 => self.at_an_edge(|mesh, edge| edge.is_boundary() || mesh.is_seam(edge)).unwrap_or(any),
+            4 | 5 => self.edge_on().unwrap_or(any),
             _ => any,
         }
+    }
+
+    /// A face that is seen edge-on: every cut within it lies in its plane.
+    fn edge_on(&mut self) -> Option<FaceId> {
+        let (first, count) = (self.dice.below(self.mesh.face_count()), self.mesh.face_count());
+        let is_edge_on = |f: &FaceId| {
+            let [a, b, c] = self.mesh.triangle(*f);
+            orient3d(a, b, c, self.eye).is_eq()
+        };
+        (0..count).map(|i| FaceId::of((first + i) % count)).find(is_edge_on)
     }
 
     fn thinnest(&self) -> FaceId {

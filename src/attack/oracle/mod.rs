@@ -7,6 +7,7 @@
 //! | [`census`] | nodes, edges, faces, area and volume are what the line says they must be |
 //! | [`exact`] | turned by half turns and scaled by powers of two, everything is the same to the last bit |
 //! | [`alike`] | axes permuted, mirrored, shifted on the grid, corners turned, picks exchanged: the same line |
+//! | [`rational`] | FC in rational arithmetic, written apart, finds the same line |
 //! | [`commute`] | cuts that have nothing in common can be made in either order |
 //! | [`session`] | the session gives the same state, with and without what it keeps for seeking |
 
@@ -16,12 +17,13 @@ mod commute;
 mod exact;
 mod invariants;
 mod map;
+mod rational;
 mod session;
 mod trace;
 
 use super::drive::Ran;
 use super::trial::Ground;
-use super::{Finding, Hits, matrix};
+use super::{Finding, Hits};
 use crate::engine::wound::{State, WoundEvent};
 use crate::recording::Recording;
 
@@ -47,13 +49,13 @@ pub(super) struct Witness<'a> {
 
 /// Looks at an event with every oracle.
 pub(super) fn look(witness: &Witness<'_>, hits: &mut Hits) -> Verdict {
-    matrix::note(witness, hits);
     invariants::look(witness)?;
     trace::look(witness)?;
     census::look(witness)?;
     if witness.before.mesh.face_count() <= SMALL {
         exact::look(witness, hits)?;
         alike::look(witness, hits)?;
+        rational::look(witness, hits)?;
         commute::look(witness, hits)?;
     }
     Ok(())

@@ -259,7 +259,10 @@ impl<'a> Front<'a> {
         let sides = sides_to_line(&at, self.length);
         let distance = triangle_to_line(&at, sides);
         let comes_back = distance < before.sides[side];
-        if comes_back && (torn || self.is_far(corners[2], at[third])) || self.is_lost(corners[2], at[third]) {
+        // The known side may be one of a link's face, which is laid down as its link says, wherever that is in space.
+        let laid = [at[first], at[second], at[third]];
+        let is_lost = corners.iter().zip(laid).any(|(&corner, at)| self.is_lost(corner, at));
+        if comes_back && (torn || self.is_far(corners[2], at[third])) || is_lost {
             self.refused.insert(face);
             return None;
         }
