@@ -206,6 +206,11 @@ impl Section<'_> {
         a.at == b.at && a.point.distance(b.point.rounded()) <= reach
     }
 
+    /// The length of the exact line, rounded.
+    pub fn length_of(&self, line: &Line) -> f64 {
+        self.in_model_units(&self.length(&line.way()))
+    }
+
     /// A length of [`Section::length`], rounded.
     fn in_model_units(&self, length: &BigInt) -> f64 {
         self.unit.ratio(length, &(BigInt::from(1) << self.shift()))

@@ -199,6 +199,17 @@ impl<'a> Section<'a> {
         off(&eye, &self.normal, position)
     }
 
+    /// How far an element is from the plane: nothing where the plane meets it, else what its nearest node is.
+    pub fn apart(&self, at: At) -> f64 {
+        let height = |n: NodeId| self.off_plane(self.mesh.position(n));
+        match at {
+            _ if self.point(at).is_some() => 0.0,
+            At::Node(n) => height(n),
+            At::Edge(e) => self.mesh.edge(e).nodes.map(height).into_iter().fold(f64::INFINITY, f64::min),
+            At::Face(f) => self.mesh.face(f).nodes.map(height).into_iter().fold(f64::INFINITY, f64::min),
+        }
+    }
+
     /// How far a position is from the node, from the line of the edge or from the plane of the face.
     pub(super) fn off_element(&self, at: At, position: DVec3) -> f64 {
         match at {
