@@ -15,6 +15,8 @@ use crate::verify;
 const FIRST_CUTS: usize = 100;
 /// Cuts of a round at most, so that the clock is looked at now and then.
 const MOST_CUTS: usize = 12_800;
+/// Cuts on every rung of the ladders, a round.
+const PER_RUNG: usize = 20;
 /// Inputs between two looks at the clock.
 const GUST: usize = 16;
 
@@ -43,8 +45,8 @@ pub(super) fn stability(night: &Night, time: Duration) -> Part {
     let (clock, mut cuts, mut findings) = (Instant::now(), 0, Vec::new());
     for round in 0u64.. {
         let in_round = (FIRST_CUTS << round.min(7)).min(MOST_CUTS);
-        let options =
-            stability::Options { cuts: in_round, seed: night.seed.wrapping_add(round), jobs: night.jobs };
+        let seed = night.seed.wrapping_add(round);
+        let options = stability::Options { cuts: in_round, per_rung: PER_RUNG, seed, jobs: night.jobs };
         let report = match stability::measure(&options, &|_, _, _| {}) {
             Ok(report) => report,
             Err(error) => return Part::unable(error.to_string()),
