@@ -1,5 +1,6 @@
 //! What the user typed: the one source of the parser, the help, the completions and the man page.
 
+mod accuracy;
 mod nightly;
 mod values;
 
@@ -10,6 +11,7 @@ use clap::{Parser, Subcommand, ValueEnum, ValueHint};
 use crate::replay::Plant;
 use crate::report::Stop;
 use crate::verify::Shard;
+pub(super) use accuracy::Accuracy;
 pub(super) use nightly::Nightly;
 pub(super) use values::{Setting, Size, Target, Until};
 
@@ -460,37 +462,6 @@ pub(super) enum Measured {
         #[command(flatten)]
         common: MeasureOptions,
     },
-}
-
-/// Time against error.
-#[derive(Debug, clap::Args)]
-pub(super) struct Accuracy {
-    /// Only these subjects
-    #[arg(long, value_name = "NAME", value_delimiter = ',')]
-    pub(super) only: Vec<String>,
-    /// Take times in so many rounds [default: 30; quick: 8]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
-    pub(super) rounds: Option<u32>,
-    /// Write a plot of each curve into this folder, as SVG
-    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
-    pub(super) plot: Option<PathBuf>,
-    /// Fail where a setting got both slower and less accurate than in this file
-    #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
-    pub(super) against: Option<PathBuf>,
-    /// Write what was measured into that file instead
-    #[arg(long, requires_all = ["against", "reason"])]
-    pub(super) bless: bool,
-    /// Why the curves may be what they are now
-    #[arg(long, value_name = "TEXT", requires = "bless")]
-    pub(super) reason: Option<String>,
-    /// The folder of recordings
-    #[arg(long, value_name = "DIR", default_value = "recordings/wound", value_hint = ValueHint::DirPath)]
-    pub(super) recordings: PathBuf,
-    /// Who renders
-    #[arg(long, value_enum, default_value_t, value_name = "WHO")]
-    pub(super) renderer: Renderer,
-    #[command(flatten)]
-    pub(super) common: MeasureOptions,
 }
 
 /// What every measurement can be asked for.

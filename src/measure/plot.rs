@@ -1,18 +1,20 @@
 //! A plot of price against price, as SVG: points on two logarithmic axes, less being better on both, and a staircase along what nothing beats.
 //!
-//! A point on the front is filled, others are hollow; below and left of the staircase there is nothing to be had. Each series has a colour (Okabe and Ito 2008,
-//! which the colour-blind can tell apart) and a shape. An error of nought has no logarithm: it lies on a line of its own at the bottom. The picture
-//! brings its own ground, light or dark as the viewer prefers, and its text is text. Nothing is loaded from elsewhere.
+//! A point on the front is filled, others are hollow; below and left of the staircase there is nothing to be had. Each series has a colour (Okabe and
+//! Ito 2008, which the colour-blind can tell apart) and a shape. An error of nought has no logarithm: it lies on a line of its own at the bottom. The
+//! picture brings its own ground, light or dark as the viewer prefers, and its text is text. Nothing is loaded from elsewhere.
 //!
 //! Not promised: a label for every point; one that fits nowhere is left out, and shown when the point is pointed at.
 
 mod labels;
 mod scale;
+mod style;
 
 use std::fmt::Write as _;
 
 use labels::{Labels, Place};
 use scale::Scale;
+use style::{COLOURS, DARK, LIGHT, colours};
 
 /// A point.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,27 +57,6 @@ const SIZE: [f64; 2] = [820.0, 500.0];
 const FRAME: [f64; 4] = [86.0, 92.0, 796.0, 436.0];
 /// About how wide a character of the legend is.
 const CHARACTER: f64 = 6.9;
-
-/// Colours on light and on dark ground.
-const STYLE: &str = "
-.ground{fill:#ffffff;stroke:#d8dce2}.frame{fill:#fafbfc;stroke:#c3c9d1}.grid{stroke:#e6e9ee}.fine{stroke:#f1f3f6}
-text{fill:#3b434e;font-family:system-ui,-apple-system,'Segoe UI',Roboto,'DejaVu Sans',sans-serif;font-size:12px}
-.title{font-size:17px;font-weight:600;fill:#161b22}.axis{font-size:12.5px;fill:#3b434e}.label{font-size:11px}
-.zero{stroke:#9aa3ae;stroke-dasharray:2 4}.stairs{fill:none;stroke-width:1.75;stroke-opacity:.75}.mark{stroke-width:1.75}
-";
-const DARK: &str = "
-.ground{fill:#14181f;stroke:#303845}.frame{fill:#181d25;stroke:#3c4654}.grid{stroke:#2a323d}.fine{stroke:#20262f}
-text,.axis{fill:#c3cad4}.title{fill:#f0f3f7}.zero{stroke:#6d7885}
-";
-/// The colours of the series, on light and on dark ground.
-const COLOURS: [[&str; 2]; 6] = [
-    ["#0072b2", "#56b4e9"],
-    ["#d55e00", "#ff8c42"],
-    ["#009e73", "#3ecf9f"],
-    ["#b0508a", "#e59bc6"],
-    ["#a87400", "#f0c04a"],
-    ["#555c66", "#aab2bd"],
-];
 
 /// The plot as an SVG document.
 pub fn svg(plot: &Plot) -> String {
@@ -183,7 +164,7 @@ fn head(out: &mut String, plot: &Plot) {
         ),
     );
     add(out, format_args!("<title>{}</title>", escaped(&plot.title)));
-    add(out, format_args!("<style>{STYLE}{}", colours(0)));
+    add(out, format_args!("<style>{LIGHT}{}", colours(0)));
     add(out, format_args!("@media (prefers-color-scheme: dark){{{DARK}{}}}</style>", colours(1)));
     add(
         out,
@@ -196,18 +177,6 @@ fn head(out: &mut String, plot: &Plot) {
     add(out, format_args!(r#"<text class="title" x="24" y="36">{}</text>"#, escaped(&plot.title)));
 }
 
-/// A series has a stroke, its filled points a fill, its hollow ones the frame's.
-fn colours(ground: usize) -> String {
-    let frame = ["#fafbfc", "#181d25"][ground];
-    let rule = |(i, colour): (usize, &[&str; 2])| {
-        let colour = colour[ground];
-        format!(
-            ".s{i}{{stroke:{colour}}}.f{i}{{fill:{colour};stroke:{colour}}}.h{i}{{fill:{frame};stroke:{colour}}}\n"
-        )
-    };
-    COLOURS.iter().enumerate().map(rule).collect()
-}
-
 fn legend(out: &mut String, plot: &Plot) {
     let mut x = 30.0;
     for (i, series) in plot.series.iter().enumerate() {
@@ -216,7 +185,7 @@ fn legend(out: &mut String, plot: &Plot) {
         x += 36.0 + CHARACTER * series.name.chars().count() as f64;
     }
     let text = "filled: nothing is both faster and better";
-    add(out, format_args!(r#"<text class="label" x="{}" y="36" text-anchor="end">{text}</text>"#, FRAME[2]));
+    add(out, format_args!(r#"<text class="label" x="{}" y="68" text-anchor="end">{text}</text>"#, FRAME[2]));
 }
 
 /// The staircase along the front: from each of its points across to the next one's time, then down.

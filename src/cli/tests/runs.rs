@@ -352,3 +352,34 @@ fn nothing_is_reduced_where_nothing_breaks() {
     let (_folder, script) = square();
     assert!(complaint(&["reduce", &script, "-o", "-"]).contains("there is nothing to reduce"));
 }
+
+#[test]
+fn time_against_error_is_stored_plotted_and_held_against_what_was() {
+    let folder = tempfile::tempdir().unwrap();
+    let [file, plots] = ["curves.json", "plots"].map(|name| folder.path().join(name));
+    let [file_name, plots_name] = [&file, &plots].map(|path| path.to_str().unwrap());
+    let quick =
+        ["measure", "accuracy", "--quick", "--only", "patch", "--rounds", "1", "--renderer", "reference"];
+    let run = |more: &[&str]| lancet(&[&quick[..], &["--against", file_name], more].concat());
+    let (status, out, _) = run(&["--bless", "--reason", "first", "--plot", plots_name]);
+    assert_eq!(status, Status::Verified, "{out}");
+    assert!(out.contains("planted") && out.contains("RMS difference, levels of 255"), "{out}");
+    assert!(std::fs::read_to_string(plots.join("patch.svg")).unwrap().starts_with("<svg"));
+    let (status, out, _) = run(&[]);
+    assert_eq!(status, Status::Verified, "{out}");
+    // As if everything had been faster and more accurate.
+    let mut stored: serde_json::Value = serde_json::from_slice(&std::fs::read(&file).unwrap()).unwrap();
+    for row in stored["curves"][0]["rows"].as_array_mut().unwrap() {
+        let part = |value: &serde_json::Value| value.as_f64().unwrap() * 1e-3;
+        (row["effort"], row["error"]) = (part(&row["effort"]).into(), part(&row["error"]).into());
+    }
+    std::fs::write(&file, stored.to_string()).unwrap();
+    let (status, out, _) = run(&[]);
+    assert_eq!(status, Status::Diverged, "{out}");
+    assert!(out.contains("finding: patch") && out.contains("less accurate"), "{out}");
+    std::fs::write(&file, "{}").unwrap();
+    assert_eq!(run(&[]).0, Status::Failed);
+    let (status, _, err) = lancet(&["measure", "accuracy", "--only", "cheese", "--renderer", "reference"]);
+    assert_eq!(status, Status::Failed, "{err}");
+    assert!(err.contains("cheese") && err.contains("painting"), "{err}");
+}

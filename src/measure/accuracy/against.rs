@@ -1,6 +1,6 @@
 //! Keeps a change from making a setting both slower and less accurate than it was.
 //!
-//! Stored are, for each setting, its error and what it took in yardsticks ([`turns`](super::turns)), so that seconds of different machines are not
+//! Stored are, for each setting, its error and what it took in yardsticks (`turns`), so that seconds of different machines are not
 //! compared. A setting that got slower **and** less accurate is a finding; one that pays for the one with the other is a choice, and passes. So is one
 //! that is no longer there: a stored curve is held against what is measured, and of a subject that is measured every stored setting has to be.
 //!
@@ -53,6 +53,8 @@ pub struct Stored {
     pub version: u32,
     /// Why they may be as they are.
     pub reason: String,
+    /// Whether they are those of a quick run, which has settings of its own.
+    pub quick: bool,
     /// The curves.
     pub curves: Vec<StoredCurve>,
 }
@@ -70,7 +72,7 @@ impl Stored {
         let curves = curves
             .map(|c| StoredCurve { name: c.name.clone(), rows: c.rows.iter().map(row).collect() })
             .collect();
-        Self { version: VERSION, reason: reason.into(), curves }
+        Self { version: VERSION, reason: reason.into(), quick: report.quick, curves }
     }
 
     /// Reads a file of curves.
@@ -92,6 +94,10 @@ impl Stored {
 
     /// The settings that got worse in both, or are missing: a line each.
     pub fn compare(&self, report: &AccuracyReport) -> Vec<String> {
+        if self.quick != report.quick {
+            let kind = |quick: bool| if quick { "a quick run" } else { "a full run" };
+            return vec![format!("stored is {}, and measured {}", kind(self.quick), kind(report.quick))];
+        }
         let mut faults = Vec::new();
         for stored in &self.curves {
             let Some(curve) = report.curves.iter().find(|curve| curve.name == stored.name) else { continue };
@@ -100,8 +106,6 @@ impl Stored {
                 let same = |row: &&Row| row.series == was.series && row.setting == was.setting;
                 let fault = match curve.rows.iter().find(same) {
                     Some(now) => was.worse(now, LEAST * largest),
-                    // A full run has settings that a quick one leaves out.
-                    None if report.quick => None,
                     None => Some("is no longer measured".into()),
                 };
                 faults
@@ -173,6 +177,8 @@ mod tests {
         assert_eq!(Stored::parse(&stored.text()), Ok(stored.clone()));
         assert!(stored.compare(&report()).is_empty());
         assert!(Stored::parse(b"{}").is_err());
+        let quick = Stored { quick: true, ..stored.clone() };
+        assert_eq!(quick.compare(&report()).len(), 1, "other settings");
         let newer = Stored { version: 9, ..stored };
         assert!(Stored::parse(&newer.text()).is_err());
     }

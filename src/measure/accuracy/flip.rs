@@ -6,7 +6,7 @@
 //! - **features** (§4.2): edges and points of the achromatic channel, as first and second derivatives of a Gaussian;
 //! - **both** (§4.3): ΔE = ΔE_colour^(1 − ΔE_feature), from 0 to 1; the mean over the picture.
 //!
-//! The filters are those of a screen seen at [`PIXELS_PER_DEGREE`], the paper's default: 0.7 m away, 3840 pixels on 0.7 m. Beyond the border the
+//! The filters are those of a screen seen at `PIXELS_PER_DEGREE`, the paper's default: 0.7 m away, 3840 pixels on 0.7 m. Beyond the border the
 //! outermost pixels go on. Not here: the maps' colours, and the pooling by weighted histograms.
 
 use std::f64::consts::PI;

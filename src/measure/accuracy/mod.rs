@@ -10,11 +10,11 @@
 //! | [`keyframes`] | bytes kept for seeking | linear replay: its states, exactly |
 //! | [`gates`] | measures of a picture | the defects that were planted |
 //!
-//! A subject gives one or more [`Curve`]s: rows of setting, time and error, and the Pareto front among them. An error says which distance it is, in which unit. No
-//! distance is taken on trust: each curve **plants** a known error in a result that is otherwise exact and says what was measured of it; a run in which
-//! they differ is no result ([`Curve::is_trusted`]).
+//! A subject gives one or more [`Curve`]s: rows of setting, time and error, and the Pareto front among them. An error says which distance it is, in
+//! which unit. No distance is taken on trust: each curve **plants** a known error in a result that is otherwise exact and says what was measured of
+//! it; a run in which they differ is no result ([`Curve::is_trusted`]).
 //!
-//! **Times** are medians of rounds in which all settings of a subject take turns, beside a [yardstick](turns) that no change of the program touches. A
+//! **Times** are medians of rounds in which all settings of a subject take turns, beside a yardstick that no change of the program touches. A
 //! [gate](against) keeps what is stored of a run's curves from getting both slower, by the yardstick, and less accurate.
 //!
 //! Not promised: seconds that hold on another machine.

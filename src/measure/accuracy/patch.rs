@@ -1,8 +1,8 @@
 //! GP's patch by octaves and resolution, against the one that they converge to (Lam 2016, §5.3.1).
 //!
-//! The patch is a picture of a formula over the unit square. **Truth.** The formula with [`CONVERGED`] octaves at the middles of a grid of [`GRID`], made as a patch
-//! whose texels stand just there. **Error.** At those places a patch is looked up as it is when it is painted, bilinear between its texels: the root of
-//! the mean square of the difference, in levels of 255 (alpha multiplied in); and the largest.
+//! The patch is a picture of a formula over the unit square. **Truth.** The formula with `CONVERGED` octaves at the middles of a grid of `GRID`, made
+//! as a patch whose texels stand just there. **Error.** At those places a patch is looked up as it is when it is painted, bilinear between its
+//! texels: the root of the mean square of the difference, in levels of 255 (alpha multiplied in); and the largest.
 //!
 //! The octaves that a scene has by default are a look: against them, error is what more octaves would still change.
 
@@ -17,7 +17,7 @@ use crate::render::reference::painter::patch;
 
 /// Octaves after which the next would change less than half a level.
 const CONVERGED: u32 = 9;
-/// The grid on which patches are compared: four times the largest of [`WIDTHS`].
+/// The grid on which patches are compared: four times the largest of `WIDTHS`.
 const GRID: [u32; 2] = [4096, 968];
 /// Octaves, and texels along the patch; those of a quick run first.
 const OCTAVES: [u32; 5] = [1, 2, 4, 6, 8];

@@ -1,17 +1,20 @@
 //! Percentage-closer filtering against the light that it stands for (Lam 2016, B.1.2.2).
 //!
-//! A ball hangs over a floor, below a lamp. **The lamp that a filter stands for.** A filter of k looks blurs over k texels of the map, each e = 2 z tan half/size wide
-//! at the depth z of the floor; a square lamp of side a, facing the floor, blurs over a (z − z_b)/z_b behind a ball at the depth z_b. So it stands for a lamp of side
+//! A ball hangs over a floor, below a lamp. **The lamp that a filter stands for.** A filter of k looks blurs over k texels of the map, each e = 2 z
+//! tan half/size wide at the depth z of the floor; a square lamp of side a, facing the floor, blurs over a (z − z_b)/z_b behind a ball at the depth
+//! z_b. So it stands for a lamp of side
 //!
 //! ```text
 //! a = k e z_b/(z − z_b).
 //! ```
 //!
-//! One lamp, that of [`LOOKS`] looks into a map of [`SIZE`], is what all settings are compared with: a larger map needs more looks for the same lamp, and a hard shadow
-//! stands for none.
+//! One lamp, that of `LOOKS` looks into a map of `SIZE`, is what all settings are compared with: a larger map needs more looks for the same lamp, and
+//! a hard shadow stands for none.
 //!
-//! **Truth.** Rays from each place of the floor to many places of the lamp, the ball being met by its equation, not by its mesh. **Error.** The root of the mean square of the difference
-//! over the places, in per cent of the lamp's light; and the largest. The filter blurs by the same width everywhere, a lamp the more the farther away the ball is.
+//! **Truth.** Rays from each place of the floor to many places of the lamp, the ball being met by its equation, not by its mesh. **Error.** The root
+//! of the mean square of the difference over the places, in per cent of the lamp's light; and the largest. The filter blurs by the same width
+//! everywhere, a lamp the more the farther away the ball is. A third distance is that over the places which the whole lamp shines on: what a wide
+//! filter takes for shadow there is the floor itself.
 
 use glam::DVec3;
 
@@ -52,29 +55,25 @@ fn measure(sizes: &[u32], places: usize, rounds: usize) -> Result<Curve, Measure
     let scene = Scene::new(places)?;
     let truth = scene.truth();
     let settings: Vec<[u32; 2]> = sizes.iter().flat_map(|s| FILTERS.map(|f| [*s, f])).collect();
-    let errors: Vec<[f64; 2]> =
-        settings.iter().map(|setting| apart(&scene.filtered(*setting), &truth)).collect();
+    let errors: Vec<[f64; 3]> =
+        settings.iter().map(|setting| errors(&scene.filtered(*setting), &truth)).collect();
     let task = |setting: [u32; 2]| -> Task<'_> {
         let scene = &scene;
         Box::new(move || Ok(timed(|| scene.filtered(setting)).1))
     };
     let mut tasks: Vec<Task<'_>> = settings.iter().map(|setting| task(*setting)).collect();
     let timings = in_turns(rounds, &mut tasks)?;
-    let rows = settings.iter().zip(timings).zip(&errors).map(|(([size, filter], timing), [rms, largest])| {
-        Row::new(
-            "ball over a floor",
-            format!("{size}, {filter} x {filter}"),
-            timing,
-            Some(*rms),
-            vec![*largest],
-        )
-    });
+    let rows =
+        settings.iter().zip(timings).zip(&errors).map(|(([size, filter], timing), [rms, others @ ..])| {
+            let setting = format!("{size}, {filter} x {filter}");
+            Row::new("ball over a floor", setting, timing, Some(*rms), others.to_vec())
+        });
     Ok(Curve {
         name: "shadows".into(),
         title: "Shadows by size of the map and of the filter, against a lamp".into(),
         time_of: format!("drawing the map and {} looks", scene.floor.len()),
         error: Measure::new("RMS difference of what arrives", "% of the lamp's light"),
-        others: vec![Measure::new("largest", "%")],
+        others: vec![Measure::new("largest", "%"), Measure::new("RMS in full light", "%")],
         rows: rows.collect(),
         planted: planted(),
     }
@@ -164,6 +163,13 @@ fn apart(found: &[f64], truth: &[f64]) -> [f64; 2] {
     let off = found.iter().zip(truth).map(|(a, b)| 100.0 * (a - b).abs());
     let (sum, largest) = off.fold((0.0, 0.0_f64), |(sum, most), off| (sum + off * off, most.max(off)));
     [(sum / found.len() as f64).sqrt(), largest]
+}
+
+/// RMS and largest difference, and RMS where the whole lamp is seen, per cent.
+fn errors(found: &[f64], truth: &[f64]) -> [f64; 3] {
+    let lit: (Vec<f64>, Vec<f64>) = found.iter().zip(truth).filter(|(_, t)| **t == 1.0).unzip();
+    let ([rms, largest], [in_light, _]) = (apart(found, truth), apart(&lit.0, &lit.1));
+    [rms, largest, in_light]
 }
 
 /// What arrives, and the same with a tenth less of it.

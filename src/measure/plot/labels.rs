@@ -87,12 +87,12 @@ mod tests {
 
     #[test]
     fn names_lie_within_the_frame_and_not_over_one_another() {
-        let points: Vec<[f64; 2]> = (0..40).map(|i| [5.0 * f64::from(i), f64::from(i * 37 % 100)]).collect();
-        let mut labels = Labels::new([0.0, 0.0, 200.0, 100.0], points.clone());
+        let points: Vec<[f64; 2]> = (0..40).map(|i| [10.0 * f64::from(i), f64::from(i * 37 % 200)]).collect();
+        let mut labels = Labels::new([0.0, 0.0, 400.0, 200.0], points.clone());
         let placed = points.iter().filter(|at| labels.place(**at, "name").is_some()).count();
         assert!((5..40).contains(&placed), "{placed}");
         for (i, a) in labels.taken.iter().enumerate() {
-            assert!(a[0] >= 0.0 && a[2] <= 200.0);
+            assert!(a[0] >= 0.0 && a[2] <= 400.0);
             assert!(labels.taken[..i].iter().all(|b| !overlap(*a, *b)));
         }
     }
