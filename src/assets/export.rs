@@ -5,7 +5,8 @@
 //!
 //! - OBJ has `v` for each node, `vt` for each vertex; where the surface changes, `g` and `usemtl` (`skin`, `gutter`) split the faces.
 //! - PLY (binary, little-endian) has an element `vertex` for each node and lists `texcoord` on the faces, so that seams
-//!   survive without nodes being doubled, and a property `surface` (0 skin, 1 gutter).
+//!   survive without nodes being doubled, and a property `surface` (0 skin, 1 gutter). What it cannot say is that nodes at one place are two, as on
+//!   the sides of a cut that stayed closed: whoever reads it welds them.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};

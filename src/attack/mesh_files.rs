@@ -2,16 +2,15 @@
 //!
 //! What must hold: a fault names a place in the file; a mesh is a manifold, finite and without flat faces, no larger than the file
 //! justifies, and survives the cache's form bit for bit; written as OBJ and as PLY it reads back as the same mesh, id by id. Where nodes share a place that
-//! last one says less: the readers decide anew which of them are one, so only that the mesh is read again is asked.
+//! last one says less: the readers decide anew which of them are one, so only that the mesh is read again is asked, and of a PLY not even that.
 //!
 //! Not looked at: how much was set aside on the way. libFuzzer's `-malloc_limit_mb` does that.
 
-use std::io::Write;
 use std::path::Path;
 
 use super::{Finding, Hits, Outcome};
 use crate::assets::export::{write_obj, write_ply};
-use crate::assets::{AssetError, Place, read_mesh};
+use crate::assets::{AssetError, FaultKind, Place, read_mesh};
 use crate::geometry::predicates::collinear;
 use crate::mesh::{Mesh, check};
 
@@ -109,13 +108,19 @@ fn exported(
 ) -> Result<(), Box<Finding>> {
     let failed = |what: String| Finding::new("reads-what-it-wrote", format!("as {end}: {what}"));
     let mut bytes = Vec::new();
-    write(mesh, &mut bytes).and_then(|()| bytes.flush()).map_err(|e| failed(e.to_string()))?;
-    let (again, _) =
-        read_mesh(Path::new(&format!("again.{end}")), &bytes).map_err(|error| failed(error.to_string()))?;
-    match share_a_place(mesh) || same_mesh(mesh, &again) {
-        true => Ok(()),
-        false => Err(failed("it is another mesh".into())),
+    write(mesh, &mut bytes).map_err(|e| failed(e.to_string()))?;
+    match read_mesh(Path::new(&format!("again.{end}")), &bytes) {
+        Ok((again, _)) if share_a_place(mesh) || same_mesh(mesh, &again) => Ok(()),
+        Ok(_) => Err(failed("it is another mesh".into())),
+        Err(error) if welds_to_none(end, mesh, &error) => Ok(()),
+        Err(error) => Err(failed(error.to_string())),
     }
+}
+
+/// A PLY cannot say that two nodes at one place are two, and as one they may make an edge of three faces, or a strip of one side.
+fn welds_to_none(end: &str, mesh: &Mesh, error: &AssetError) -> bool {
+    let kinds = [FaultKind::NotManifold, FaultKind::NotOrientable];
+    end == "ply" && share_a_place(mesh) && kinds.contains(&error.fault.kind)
 }
 
 fn share_a_place(mesh: &Mesh) -> bool {

@@ -23,9 +23,9 @@ use crate::geometry::predicates::{nearer, orient3d};
 use crate::mesh::{EdgeId, FaceId, Mesh, NodeId};
 
 /// Rays and edits of one input.
-const MOST_STEPS: usize = 24;
+const MOST_STEPS: usize = 16;
 /// Faces beyond which an input is not grown further: brute force looks at all of them for every ray.
-const MOST_FACES: usize = 2_000;
+const MOST_FACES: usize = 400;
 
 pub(super) fn run(data: &[u8]) -> Outcome {
     let mut hits = Hits::default();

@@ -7,17 +7,17 @@ use crate::geometry::predicates::collinear;
 use crate::mesh::{EdgeId, FaceId, IndexedMesh, Mesh, NodeId};
 
 /// Nodes along a side of a sheet, at most.
-const MOST_SIDE: usize = 5;
+const MOST_SIDE: usize = 4;
 /// What the axes are multiplied by: nothing, all alike, or so that every face is a sliver.
 const SCALES: [[f64; 3]; 7] =
     [[1.0; 3], [1.0; 3], [1e-9; 3], [1e9; 3], [1e-6, 1.0, 1.0], [1.0, 1e6, 1e6], [1.0, 1.0, 1e-12]];
 
-/// One to four sheets of up to 5 x 5 nodes, each at a depth of its own, the same as the last one's, or an ulp beside it.
+/// One to three sheets of up to 4 x 4 nodes, each at a depth of its own, the same as the last one's, or an ulp beside it.
 pub(super) fn sheets(bytes: &mut Unstructured<'_>) -> Result<IndexedMesh> {
     let mut mesh = IndexedMesh::default();
     let scale = *bytes.choose(&SCALES)?;
     let mut depth = 0.0;
-    for _ in 0..bytes.int_in_range(1..=4)? {
+    for _ in 0..bytes.int_in_range(1..=3)? {
         depth = match bytes.int_in_range(0..=3u8)? {
             0 => depth,
             1 => f64::next_up(depth),

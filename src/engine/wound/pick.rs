@@ -216,3 +216,33 @@ pub fn in_face(mesh: &Mesh, face: FaceId, eye: DVec3, through: DVec3) -> Point {
     let [lo, hi] = [a.min(b).min(c), a.max(b).max(c)];
     Point { at: At::Face(face), position: position.clamp(lo, hi), weights }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::wound::merge::face_box;
+    use crate::mesh::IndexedMesh;
+
+    /// A face a thousand million times as long as high, whose parameter along the ray is wrong from the sixth digit when it is computed in floats,
+    /// and a face that the ray meets between the true place and that.
+    #[test]
+    fn a_sliver_is_met_where_it_is_and_not_where_rounding_puts_it() {
+        let eye = DVec3::new(-0.616, 0.26, 3.0);
+        let through = DVec3::new(0.6049999999666666, -1.1649999999666667, -0.17049999996666668);
+        let behind = -0.1705021550851944;
+        let positions = vec![
+            DVec3::new(0.117, -0.713, -0.626),
+            DVec3::new(1.093, -1.617, 0.285),
+            DVec3::new(0.6049999999, -1.1649999999, -0.1704999999),
+            DVec3::new(-9.0, -9.0, behind),
+            DVec3::new(9.0, -9.0, behind),
+            DVec3::new(0.0, 9.0, behind),
+        ];
+        let faces = vec![[0, 1, 2], [3, 4, 5]];
+        let mesh =
+            Mesh::build(&IndexedMesh { positions, faces, ..IndexedMesh::default() }).expect("two faces");
+        let bvh = Bvh::build(2, &|face| face_box(&mesh, face));
+        let both = [0, 1].map(|face| meet(&mesh, FaceId(face), eye, through).is_some());
+        assert_eq!((both, cast(&mesh, &bvh, eye, through).map(|hit| hit.face)), ([true; 2], Some(FaceId(0))));
+    }
+}
