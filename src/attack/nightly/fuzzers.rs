@@ -8,7 +8,7 @@ use std::process::{Command, Output, Stdio};
 use std::time::Duration;
 
 use super::parts::new_inputs;
-use super::{Night, NightFinding, Part, Progress};
+use super::{Night, NightFinding, Part, Progress, Verdict};
 use crate::assets;
 use crate::attack::Target;
 
@@ -16,6 +16,8 @@ use crate::attack::Target;
 const SLOWEST: u32 = 20;
 /// Most that one input may set aside at once, MB; inputs are of some kilobytes.
 const MOST_MB: u32 = 512;
+/// How long a planted bug may go unfound.
+const CANARY_SECONDS: u64 = 60;
 /// What libFuzzer says before the path of an input that broke something.
 const WRITTEN: &str = "Test unit written to ";
 
@@ -82,6 +84,44 @@ impl Tool {
     }
 }
 
+impl Tool {
+    /// Fuzzes an engine with a bug planted in it, which has to be found: else the night says nothing.
+    pub(super) fn canary(&self, night: &Night) -> Part {
+        let folder = night.findings.join("canary");
+        if let Err(error) = assets::real_folder(&folder) {
+            return Part::unable(error.to_string());
+        }
+        let mut command = Command::new("cargo");
+        command.args(["+nightly", "fuzz", "run", "--features", "canary", "--fuzz-dir"]).arg(&self.fuzz);
+        command.arg("canary").arg(&folder).arg("--").args([
+            format!("-seed={}", night.seed as u32 | 1),
+            format!("-max_total_time={CANARY_SECONDS}"),
+            format!("-artifact_prefix={}/", folder.display()),
+            "-print_final_stats=1".into(),
+        ]);
+        command.env("LANCET_FINDINGS", &folder).stdin(Stdio::null());
+        match command.output() {
+            Ok(output) => canary_of(output.status.success(), &text(&output)),
+            Err(error) => Part::unable(error.to_string()),
+        }
+    }
+}
+
+/// Here to find something is to pass.
+fn canary_of(success: bool, text: &str) -> Part {
+    let part = part_of(success, text);
+    match (part.verdict, part.findings.first()) {
+        (Verdict::Failed, Some(found)) => {
+            Part::ran(part.count, format!("found: {}", found.detail), Vec::new())
+        }
+        (Verdict::Passed, _) => {
+            let detail = format!("the planted bug was not found within {CANARY_SECONDS} s");
+            Part::ran(part.count, part.detail, vec![NightFinding { detail, file: None }])
+        }
+        _ => part,
+    }
+}
+
 fn text(output: &Output) -> String {
     [&output.stdout, &output.stderr].map(|bytes| String::from_utf8_lossy(bytes).into_owned()).concat()
 }
@@ -124,7 +164,6 @@ fn finding(text: &str, input: PathBuf) -> NightFinding {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::attack::nightly::Verdict;
 
     #[test]
     fn what_libfuzzer_says_is_read() {
@@ -142,6 +181,16 @@ mod tests {
         let without = broken.replace("the recording of it", "");
         assert_eq!(part_of(false, &without).findings[0].file, Some("x/crash-1".into()));
         assert_eq!(part_of(false, "error: no such target\n").verdict, Verdict::Unable);
+    }
+
+    #[test]
+    fn a_canary_that_is_not_found_fails_the_night() {
+        let not_found = "stat::number_of_executed_units: 9\n";
+        assert_eq!(canary_of(true, not_found).verdict, Verdict::Failed);
+        let found = "panicked at a:1:1:\nexact-faces: they differ\nTest unit written to x/crash-1\n";
+        let part = canary_of(false, found);
+        assert_eq!((part.verdict, &part.detail[..]), (Verdict::Passed, "found: exact-faces: they differ"));
+        assert_eq!(canary_of(false, "error: no such target\n").verdict, Verdict::Unable);
     }
 
     #[test]

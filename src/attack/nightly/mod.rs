@@ -6,6 +6,8 @@
 //! | stability | random and hostile cuts, in rounds with a seed each | a sixth of what is left |
 //! | fuzz TARGET | libFuzzer, or a [`super::storm`] where there is none | the rest, in equal shares |
 //! | reached | the corpora, old and new, run again: what the night reached | as long as it takes |
+//! | matrix | the cells of [`super::matrix`] that the corpora and a sweep of random inputs reach | seconds |
+//! | canary | the target of that name, with the planted bug | until it is found, a minute at most |
 //!
 //! libFuzzer is started as `cargo +nightly fuzz` where that and the folder fuzz/ are there (`fuzzers`), and says so in the report where not. Its new
 //! inputs go into a folder of the night's, so that a checkout stays as it is. Whatever is found is written there too, as a recording where it is one.
@@ -70,6 +72,15 @@ impl Night {
         }
         let mut hits = Hits::default();
         report.parts.push(timed("reached", progress, || parts::reached(self, &mut hits)));
+        report.parts.push(timed("matrix", progress, || {
+            let (part, matrix) = parts::matrix(self, &hits);
+            report.matrix = Some(matrix);
+            part
+        }));
+        report.parts.push(timed("canary", progress, || match &tool {
+            Ok(tool) => tool.canary(self),
+            Err(why) => Part::ran(0, format!("skipped: {why}"), Vec::new()),
+        }));
         report.reached = hits.0;
         report.seconds = clock.elapsed().as_secs_f64();
         report
@@ -103,7 +114,8 @@ mod tests {
         let report = night.run(&|_| {});
         let names: Vec<&str> = report.parts.iter().map(|part| part.name.as_str()).collect();
         assert_eq!(names[..2], ["verify", "stability"]);
-        assert_eq!(names.len(), 3 + TARGETS.len());
+        assert_eq!(names.len(), 5 + TARGETS.len());
+        assert!(report.matrix.is_some_and(|matrix| matrix.empty().is_empty()));
         assert!(report.parts.iter().all(|part| part.verdict == Verdict::Passed), "{report:?}");
         let fuzzed = report.parts.iter().filter(|part| part.name.starts_with("fuzz "));
         assert!(

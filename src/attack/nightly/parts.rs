@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::{Night, NightFinding, Part};
 use crate::assets;
+use crate::attack::matrix::{self, Matrix};
 use crate::attack::storm::Storm;
 use crate::attack::{Finding, Hits, TARGETS, Target};
 use crate::measure::stability;
@@ -14,6 +15,8 @@ use crate::verify;
 const FIRST_CUTS: usize = 100;
 /// Cuts of a round at most, so that the clock is looked at now and then.
 const MOST_CUTS: usize = 12_800;
+/// Inputs of the sweep that fills the matrix.
+const SWEEP: usize = 1_000;
 /// Inputs between two looks at the clock.
 const GUST: usize = 16;
 
@@ -112,6 +115,29 @@ pub(super) fn reached(night: &Night, hits: &mut Hits) -> Part {
         }
     }
     Part::ran(count, format!("{} things of a name", hits.0.len()), findings)
+}
+
+/// Which cells of the matrix the corpora reach together with some inputs of chance; one that could be reached and is not is a finding.
+pub(super) fn matrix(night: &Night, reached: &Hits) -> (Part, Matrix) {
+    let mut hits = Hits::default();
+    for (name, count) in &reached.0 {
+        let what = name.split_once(": ").map_or(name.as_str(), |(_, what)| what);
+        *hits.0.entry(what.to_owned()).or_default() += count;
+    }
+    let swept = matrix::sweep(night.seed, SWEEP);
+    let mut findings = Vec::new();
+    match swept {
+        Ok(swept) => hits.add(&swept),
+        Err(finding) => findings.push(NightFinding { detail: finding.to_string(), file: None }),
+    }
+    let matrix = Matrix::of(&hits);
+    let named = |what: &str, cell: &matrix::Cell| NightFinding {
+        detail: format!("{} {} {what}", cell.configuration, cell.degeneracy.title()),
+        file: None,
+    };
+    findings.extend(matrix.empty().into_iter().map(|cell| named("was never met", cell)));
+    findings.extend(matrix.wrong().into_iter().map(|cell| named("was met, though it cannot be", cell)));
+    (Part::ran(SWEEP as u64, format!("{} cells", matrix.cells.len()), findings), matrix)
 }
 
 /// Where libFuzzer puts what it makes of a target in this night.

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
+use crate::attack::matrix::Matrix;
 use crate::report::{Row, Table};
 
 /// How a part ended.
@@ -82,11 +83,13 @@ pub struct NightReport {
     pub parts: Vec<Part>,
     /// What the corpora reach, and how often, as `TARGET: WHAT`.
     pub reached: BTreeMap<String, u64>,
+    /// Configurations and degenerate cases met.
+    pub matrix: Option<Matrix>,
 }
 
 impl NightReport {
     pub(super) fn new(seed: u64) -> Self {
-        Self { schema: 1, seed, seconds: 0.0, parts: Vec::new(), reached: BTreeMap::new() }
+        Self { schema: 1, seed, seconds: 0.0, parts: Vec::new(), reached: BTreeMap::new(), matrix: None }
     }
 
     /// 0 nothing was found, 1 something was, 2 a part could not run.
@@ -108,7 +111,9 @@ impl NightReport {
             self.parts.iter().map(part),
         );
         let reached = self.reached.iter().map(|(name, count)| vec![name.clone(), count.to_string()]);
-        vec![parts, table("What the corpora reach", &["what", "inputs"], reached)]
+        let mut tables = vec![parts, table("What the corpora reach", &["what", "inputs"], reached)];
+        tables.extend(self.matrix.iter().flat_map(Matrix::tables));
+        tables
     }
 }
 
