@@ -37,11 +37,13 @@ pub(super) fn recording(data: &[u8]) -> Option<Vec<u8>> {
 }
 
 fn begin(dice: &mut Dice<'_>) -> Recording<WoundEvent> {
-    let scene = match dice.below(4) {
-        0 => SceneRef::Inline(elsewhere(&shape::draw(dice), dice)),
-        // Of the larger ones a cut costs more, and most of it is the same.
-        1..=2 => SceneRef::Builtin(dice.one_of([builtins()[0], builtins()[1]]).into()),
-        _ => SceneRef::Builtin(dice.one_of(builtins()).into()),
+    let [tiny, small, large @ ..] = builtins();
+    let scene = match dice.below(16) {
+        0..=5 => SceneRef::Inline(elsewhere(&shape::draw(dice), dice)),
+        6..=9 => SceneRef::Builtin(tiny.into()),
+        10..=14 => SceneRef::Builtin(small.into()),
+        // A cut costs more there, and most of it is the same.
+        _ => SceneRef::Builtin(dice.one_of(large).into()),
     };
     Trial::blank(scene, u64::from(dice.byte()))
 }

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use super::oracle::Witness;
 use super::trial::Look;
-use super::{Hits, fusion};
+use super::{Finding, Hits, fusion};
 use crate::engine::wound::Cut;
 use crate::engine::wound::chain::At;
 use crate::engine::wound::plane::CutPlane;
@@ -273,15 +273,15 @@ fn is_sliver([a, b, c]: [glam::DVec3; 3]) -> bool {
     longest * longest >= SLIVER * (b - a).cross(c - a).length()
 }
 
-/// Draws so many inputs of the target `fusion`, and counts the cells that they reach. No oracle looks at them.
-pub fn sweep(seed: u64, inputs: usize) -> Result<Matrix, Box<super::Finding>> {
+/// Draws so many inputs of the target `fusion`, and says what they reach. No oracle looks at them.
+pub fn sweep(seed: u64, inputs: usize) -> Result<Hits, Box<Finding>> {
     let mut hits = Hits::default();
     for part in 0..inputs as u64 {
         let mut random = Random::of(seed, part, "matrix");
         let bytes: Vec<u8> = (0..fusion::BYTES).map(|_| random.any() as u8).collect();
         hits.add(&fusion::look(&bytes, Look::Cells)?);
     }
-    Ok(Matrix::of(&hits))
+    Ok(hits)
 }
 
 #[cfg(test)]
@@ -290,7 +290,7 @@ mod tests {
 
     #[test]
     fn every_cell_that_can_be_reached_is_and_no_other() {
-        let matrix = sweep(1, 1_000).expect("no finding");
+        let matrix = Matrix::of(&sweep(1, 1_000).expect("no finding"));
         assert_eq!(matrix.empty(), Vec::<&Cell>::new());
         assert_eq!(matrix.wrong(), Vec::<&Cell>::new());
         let [counts, reasons] = &matrix.tables()[..] else { panic!("two tables") };

@@ -11,7 +11,7 @@ use super::map::Map;
 use super::{Verdict, Witness, require};
 use crate::attack::Hits;
 use crate::engine::wound::chain::{At, Chain};
-use crate::engine::wound::{Cut, Pick, State, Work, Wound, WoundEvent};
+use crate::engine::wound::{Cut, Pick, State, Work, Wound, WoundEvent, pick};
 use crate::engine::{Engine, Start};
 use crate::mesh::{Face, FaceId};
 use crate::report::Rejection;
@@ -89,25 +89,20 @@ fn form(state: &mut State, event: &WoundEvent, eye: DVec3) -> Result<Box<Cut>, R
 
 /// The same cut seen otherwise; None where that would be another cut.
 fn otherwise(way: Way, witness: &Witness<'_>, eye: DVec3) -> Option<Result<Box<Cut>, Rejection>> {
+    let mine = through(&mut witness.before.clone(), witness.event)?;
     match way {
         Way::Mapped(map) => {
-            let (before, picked) = (&witness.before.mesh, witness.ran.cut()?.picked?);
-            let exact = before.positions().iter().all(|p| map.is_exact_at(*p)) && map.is_exact_at(eye);
             let mut image = map.state(witness.ground, witness.before);
-            let formed = form(&mut image, witness.event, map.point(eye));
-            let through = formed.as_ref().ok().and_then(|cut| cut.picked).unwrap_or(picked);
-            let same = |i: usize| map.point(picked[i].through) == through[i].through;
-            let follows = formed.is_err() || (same(0) && same(1));
-            let on_grid = (0..2).all(|i| map.is_exact_at(picked[i].through));
-            (exact && follows && on_grid).then_some(formed)
+            let theirs = through(&mut image, witness.event)?;
+            let all = witness.before.mesh.positions().iter().chain([&eye]).chain(&mine);
+            let is_same =
+                all.into_iter().all(|p| map.is_exact_at(*p)) && theirs == mine.map(|p| map.point(p));
+            is_same.then(|| form(&mut image, witness.event, map.point(eye)))
         }
         Way::Turned => {
             let (mut image, event) = turned(witness)?;
-            let mine = witness.ran.cut()?.picked?;
-            let formed = form(&mut image, &event, eye);
-            let theirs = formed.as_ref().ok().and_then(|cut| cut.picked).unwrap_or(mine);
-            let same = (0..2).all(|i| mine[i].through == theirs[i].through);
-            same.then_some(formed)
+            let is_same = through(&mut image, &event)? == mine;
+            is_same.then(|| form(&mut image, &event, eye))
         }
         Way::Back => {
             let WoundEvent::Cut { from, to } = *witness.event else { return None };
@@ -119,6 +114,13 @@ fn otherwise(way: Way, witness: &Witness<'_>, eye: DVec3) -> Option<Result<Box<C
             }))
         }
     }
+}
+
+/// The exact data of a cut's picks.
+fn through(state: &mut State, event: &WoundEvent) -> Option<[DVec3; 2]> {
+    let WoundEvent::Cut { from, to } = *event else { return None };
+    let mut resolve = |pick| pick::resolve(state, pick).ok().map(|picked| picked.through);
+    Some([resolve(from)?, resolve(to)?])
 }
 
 /// The state with the corners of every face turned by one, and the event that names the same picks there.

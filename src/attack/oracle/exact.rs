@@ -69,10 +69,8 @@ fn apart(map: &Map, mine: &Mesh, theirs: &Mesh) -> Option<usize> {
     pairs.into_iter().position(|(p, q)| bits(map.point(*p)) != bits(*q))
 }
 
+/// Lines that are too short or too long for a job are not painted, and which those are goes by their length in units.
 fn same_paint(a: &Cut, b: &Cut) -> bool {
-    let faces = |cut: &Cut| {
-        let painted = cut.painted.as_ref()?;
-        Some(painted.painting.paint.faces.iter().map(|f| f.face).collect::<Vec<u32>>())
-    };
-    faces(a) == faces(b)
+    let [mine, theirs] = [a, b].map(|cut| cut.painted.as_ref().map(|painted| &painted.painting.paint.faces));
+    mine.zip(theirs).is_none_or(|(a, b)| a.iter().map(|f| f.face).eq(b.iter().map(|f| f.face)))
 }

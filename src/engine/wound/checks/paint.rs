@@ -99,22 +99,28 @@ fn seams(painted: &Painted) -> Check {
 fn gathered(mesh: &Mesh, cut: &Cut, painted: &Painted) -> Check {
     let job = &painted.painting.paint;
     let (length, height) = (f64::from(job.length), f64::from(job.height));
-    let slack = ROUNDING * length;
-    let distances: Vec<f64> = job.faces.iter().map(|f| triangle_distance(f.at, length)).collect();
-    let misplaced = distances.iter().enumerate().find(|&(i, &d)| match i < job.inner {
+    let distances: Vec<(f64, f64)> =
+        job.faces.iter().map(|f| (triangle_distance(f.at, length), slack(f.at, length))).collect();
+    let misplaced = distances.iter().enumerate().find(|&(i, &(d, slack))| match i < job.inner {
         true => d > 0.5 * height + slack,
         false => d < 0.5 * height - slack || d > height + slack,
     });
     let fail = |what: &str, face: FaceId| Check::fail("gathered", what).culprits([face]);
-    if let Some((i, d)) = misplaced {
+    if let Some((i, (d, _))) = misplaced {
         return fail(&format!("part {i} is {d} from the line"), FaceId(job.faces[i].face));
     }
     let found: FxHashSet<FaceId> = job.faces.iter().map(|f| FaceId(f.face)).collect();
-    match (unconnected(mesh, cut, &found), left_out(mesh, cut, painted, &found, height - slack)) {
+    match (unconnected(mesh, cut, &found), left_out(mesh, cut, painted, &found, height)) {
         (Some(face), _) => fail("a face is not connected with the line", face),
         (_, Some(face)) => fail("a face within the radius is left out", face),
         _ => Check { value: Some(found.len() as f64), ..Check::pass("gathered") },
     }
+}
+
+/// How far a part's distance may be off: its corners are in f32, and where they are much farther apart than the line is long, that is what counts.
+fn slack(at: [Vec2; 3], length: f64) -> f64 {
+    let farthest = at.iter().map(|p| p.abs().max_element()).fold(0.0, f32::max);
+    ROUNDING * length + f64::from(f32::EPSILON * farthest)
 }
 
 /// No way on the surface is shorter than the straight one: what lies far from the line is not painted as if it were near. Unrolled, strongly curved
@@ -175,7 +181,8 @@ fn left_out(
         let beyond = beyond(mesh, cut, FaceId(face.face), [corners[i], corners[j]])?;
         let [a, b] = [face.at[i], face.at[j]].map(|at| at.as_dvec2());
         let is_there = found.contains(&beyond) || painted.refused.binary_search(&beyond).is_ok();
-        (!is_there && segment_distance(a, b, length) < radius).then_some(beyond)
+        let is_within = segment_distance(a, b, length) < radius - slack(face.at, length);
+        (!is_there && is_within).then_some(beyond)
     });
     missing.next()
 }
