@@ -15,6 +15,7 @@
 //! | [`replay`] | the session: events through stages, clock, digests, checks, journal, keyframes, seek |
 //! | [`verify`] | goldens and their pictures: compare, bless, shard and merge, pages |
 //! | [`measure`] | time against error, stability, scaling, the thesis's tables |
+//! | [`attack`] | generators and oracles of the fuzzers |
 //! | [`cli`] | the command line |
 //! | [`tui`] | the terminal: the same reports, to step through, and recordings made by hand |
 //!
@@ -56,6 +57,7 @@
 #![warn(missing_docs)]
 
 pub mod assets;
+pub mod attack;
 pub mod canvas;
 pub mod cli;
 pub mod engine;

@@ -75,6 +75,11 @@ const ROOMS: &[Room] = &[
         why: "it times whatever there is, and answers with reports: it shows nothing",
     },
     Room {
+        name: "attack",
+        may_name: &["measure"],
+        why: "it attacks every room but the front ends, and answers with findings and reports",
+    },
+    Room {
         name: "cli",
         may_name: &[
             "assets",

@@ -3,7 +3,7 @@
 use lancet::measure::stability::{Options, StabilityReport, measure};
 
 fn report(cuts: usize, jobs: usize) -> StabilityReport {
-    measure(&Options { cuts, seed: 20_161, jobs }, &|_, _, _| {}).expect("the scenes are there")
+    measure(&Options { cuts, per_rung: 0, seed: 20_161, jobs }, &|_, _, _| {}).expect("the scenes are there")
 }
 
 #[test]

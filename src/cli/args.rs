@@ -440,9 +440,12 @@ pub(super) enum Measured {
     Accuracy(Accuracy),
     /// Random and hostile cuts over the built-in scenes, every invariant looked at
     Stability {
-        /// How many cuts [default: 100000; quick: 2000]
+        /// How many random cuts [default: 100000; quick: 2000]
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000_000))]
         cuts: Option<u32>,
+        /// How many cuts on every rung of every ladder; 0 leaves them out [default: 400; quick: 40]
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
+        per_rung: Option<u32>,
         /// What they are drawn from
         #[arg(long, value_name = "S", default_value_t = 1)]
         seed: u64,

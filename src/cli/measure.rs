@@ -36,9 +36,10 @@ pub(super) fn run(typed: &Measure, console: &mut Console<'_>) -> Done {
             answer(&report, &report.tables(), common, console)
         }
         Measured::Accuracy(typed) => accuracy(typed, console),
-        Measured::Stability { cuts, seed, jobs: threads, findings, common } => {
+        Measured::Stability { cuts, per_rung, seed, jobs: threads, findings, common } => {
             let cuts = or_else(*cuts, common, [100_000, 2_000]);
-            let options = stability::Options { cuts, seed: *seed, jobs: jobs(*threads) };
+            let per_rung = or_else(*per_rung, common, [400, 40]);
+            let options = stability::Options { cuts, per_rung, seed: *seed, jobs: jobs(*threads) };
             let report = showing(console, |told| stability::measure(&options, told))?;
             answer(&report, &report.tables(), common, console)?;
             broken(&report, findings.as_deref(), common, console)
@@ -137,7 +138,7 @@ fn broken(
     }
     let to = json::text([&common.json], console);
     report.findings.iter().try_for_each(|found| finding(report, found, folder, to))?;
-    let text = format!("{} findings in {} cuts", report.findings.len(), report.cuts);
+    let text = format!("{} findings in {} cuts", report.findings.len(), report.all_cuts());
     let sound = report.findings.is_empty();
     writeln!(to, "{}", if sound { to.good(text) } else { to.bad(text) })?;
     Ok(if sound { Status::Verified } else { Status::Diverged })

@@ -4,14 +4,18 @@
 //! | --- | --- |
 //! | [`thesis`] | the thesis's performance tests (Lam 2016, §6.5), beside its figures |
 //! | [`scaling`] | the same cut and pick on meshes from 8 thousand to 4 million faces |
-//! | [`stability`] | random and adversarial cuts: outcomes, and every broken invariant |
 //! | [`accuracy`] | time against error, with a [`plot`] of each |
+//! | [`stability`] | random and adversarial cuts: outcomes, and every broken invariant; how far coordinates may go |
+//! | [`exact`] | FC in rational arithmetic: what lines are compared with, and their errors measured from |
+//! | [`baseline`] | FC with an ε, in plain f32 and f64, for comparison |
 //!
 //! A report is plain data that serializes, and gives itself as [`Table`](crate::report::Table)s; this room writes nowhere but the
 //! scripts of findings. Times are medians with their quartiles, since a shared machine disturbs in one direction only and means follow it.
 
 pub mod accuracy;
+pub mod baseline;
 mod drive;
+pub mod exact;
 mod figure;
 pub mod plot;
 mod random;

@@ -7,9 +7,12 @@
 //!
 //! The cuts come in **parts**, one scene each, and a part depends on the seed and its number alone. So parts can be run by any number of
 //! threads; their results are joined in order. Every finding comes with the script that leads to it ([`reproduce`]).
+//!
+//! How far away, how large, how thin it may be before something breaks is asked on ladders ([`ranges`]).
 
 mod cuts;
 mod part;
+pub mod ranges;
 pub mod report;
 pub mod reproduce;
 mod scenes;
@@ -30,8 +33,10 @@ const CUTS: usize = 100;
 /// What is run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// How many cuts.
+    /// How many random cuts.
     pub cuts: usize,
+    /// How many cuts on every rung of every ladder.
+    pub per_rung: usize,
     /// What they are drawn from.
     pub seed: u64,
     /// How many parts at a time.
@@ -42,7 +47,7 @@ pub struct Options {
 pub fn measure(options: &Options, progress: Progress<'_>) -> Result<StabilityReport, MeasureError> {
     let scenes = scenes::prepare()?;
     let parts = run_parts(options, &scenes, progress);
-    Ok(StabilityReport::join(options, &scenes, parts))
+    Ok(StabilityReport::join(options, &scenes, parts, ranges::measure(options, progress)?))
 }
 
 fn run_parts(options: &Options, scenes: &[Prepared], progress: Progress<'_>) -> Vec<Part> {

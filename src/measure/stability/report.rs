@@ -9,6 +9,7 @@ use serde::Serialize;
 use super::Options;
 use super::cuts::Kind;
 use super::part::{Broken, Part, Tally};
+use super::ranges::RangesReport;
 use super::reproduce::{self, Reproduction};
 use super::scenes::Prepared;
 use crate::assets::AssetError;
@@ -76,12 +77,20 @@ pub struct StabilityReport {
     pub scenes: Vec<Sum>,
     /// By kind of cut.
     pub kinds: Vec<Sum>,
-    /// What broke.
+    /// How far one can go.
+    pub ranges: RangesReport,
+    /// What broke, in the random cuts and on the ladders.
     pub findings: Vec<StabilityFinding>,
 }
 
 impl StabilityReport {
-    pub(super) fn join(options: &Options, scenes: &[Prepared], parts: Vec<Part>) -> Self {
+    pub(super) fn join(
+        options: &Options,
+        scenes: &[Prepared],
+        parts: Vec<Part>,
+        mut ranges: RangesReport,
+    ) -> Self {
+        let on_ladders = std::mem::take(&mut ranges.findings);
         let all = sum(&parts, |_, _| true);
         let scene = |(i, scene): (usize, &Prepared)| {
             let here = |part: &Part| part.number % scenes.len() == i;
@@ -102,7 +111,12 @@ impl StabilityReport {
             shallowed: all.shallowed,
             scenes: scenes.iter().enumerate().map(scene).collect(),
             kinds: Kind::ALL.into_iter().map(kind).collect(),
-            findings: parts.iter().flat_map(|part| findings(options.seed, scenes, part)).collect(),
+            findings: parts
+                .iter()
+                .flat_map(|part| findings(options.seed, scenes, part))
+                .chain(on_ladders)
+                .collect(),
+            ranges,
             rejected: all.rejected,
         }
     }
@@ -127,6 +141,11 @@ impl StabilityReport {
         table("Outcomes", &columns, [applied].into_iter().chain(whole).chain(rejected))
     }
 
+    /// How many cuts were made, on the ladders too.
+    pub fn all_cuts(&self) -> usize {
+        self.cuts + self.ranges.cuts
+    }
+
     /// Writes the scripts of all findings into a folder.
     pub fn save_findings(&self, folder: &Path) -> Result<(), AssetError> {
         self.findings.iter().try_for_each(|finding| finding.reproduction.save(folder))
@@ -139,7 +158,10 @@ impl StabilityReport {
             table(title, &columns, sums.iter().map(Sum::cells))
         };
         let title = format!("{} cuts, seed {}", self.cuts, self.seed);
-        vec![sums(&title, "scene", &self.scenes), sums("By kind", "kind", &self.kinds), self.outcomes()]
+        let mut tables =
+            vec![sums(&title, "scene", &self.scenes), sums("By kind", "kind", &self.kinds), self.outcomes()];
+        tables.extend(self.ranges.tables());
+        tables
     }
 }
 
@@ -154,22 +176,24 @@ fn sum(parts: &[Part], wanted: impl Fn(&Part, Kind) -> bool) -> Tally {
 
 fn findings(seed: u64, scenes: &[Prepared], part: &Part) -> Vec<StabilityFinding> {
     let scene = &scenes[part.number % scenes.len()];
-    let finding = |broken: &Broken| {
-        let reproduction = reproduce::of(seed, part.number, scene, broken);
-        StabilityFinding {
+    let finding = |broken| StabilityFinding::of("stability", seed, part.number, scene, broken);
+    part.broken.iter().map(finding).collect()
+}
+
+impl StabilityFinding {
+    pub(super) fn of(kind: &str, seed: u64, part: usize, scene: &Prepared, broken: &Broken) -> Self {
+        let reproduction = reproduce::of(kind, seed, part, scene, broken);
+        Self {
             scene: scene.name.clone(),
-            part: part.number,
+            part,
             cut: broken.cut,
             stage: broken.stage.clone(),
             check: broken.check.clone(),
             script: reproduction.script.clone(),
             reproduction,
         }
-    };
-    part.broken.iter().map(finding).collect()
-}
+    }
 
-impl StabilityFinding {
     /// File name of its script.
     pub fn file(&self) -> &str {
         &self.reproduction.name

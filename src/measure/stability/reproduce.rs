@@ -20,17 +20,29 @@ pub struct Reproduction {
     pub name: String,
     /// The script.
     pub script: String,
-    /// The scene that it names, where it is not built in: the mesh, and how many centimetres its unit is.
-    scene: Option<(Arc<IndexedMesh>, f64)>,
+    /// The scene that it names, where it is not built in.
+    scene: Option<Made>,
 }
 
-pub(super) fn of(seed: u64, part: usize, scene: &Prepared, broken: &Broken) -> Reproduction {
-    let stem = format!("stability-{seed}-{part}-{}", broken.cut);
+/// A scene that is made here.
+#[derive(Clone, Debug, PartialEq)]
+struct Made {
+    mesh: Arc<IndexedMesh>,
+    unit_cm: f64,
+    target: Option<[f64; 3]>,
+}
+
+pub(super) fn of(kind: &str, seed: u64, part: usize, scene: &Prepared, broken: &Broken) -> Reproduction {
+    let stem = format!("{kind}-{seed}-{part}-{}", broken.cut);
     let (reference, made) = match scene.builtin {
         Some(name) => (SceneRef::Builtin(name.into()), None),
         None => (
             SceneRef::File(format!("{stem}.scene.json").into()),
-            Some((scene.indexed.clone(), scene.scene.unit_cm)),
+            Some(Made {
+                mesh: scene.indexed.clone(),
+                unit_cm: scene.scene.unit_cm,
+                target: scene.scene.target,
+            }),
         ),
     };
     let recording = Recording {
@@ -60,14 +72,17 @@ impl Reproduction {
     /// Writes the script into a folder, with the scene that it needs.
     pub fn save(&self, folder: &Path) -> Result<(), AssetError> {
         assets::write_file(&folder.join(&self.name), self.script.as_bytes())?;
-        let Some((indexed, unit_cm)) = &self.scene else { return Ok(()) };
+        let Some(made) = &self.scene else { return Ok(()) };
         let stem = self.name.trim_end_matches(".json");
         let mesh = format!("{stem}.obj");
         // It was built before the cuts were made.
-        if let Ok(built) = Mesh::build(indexed) {
+        if let Ok(built) = Mesh::build(&made.mesh) {
             export::save(&built, &folder.join(&mesh))?;
         }
-        let scene = serde_json::json!({ "mesh": mesh, "unit_cm": unit_cm }).to_string();
-        assets::write_file(&folder.join(format!("{stem}.scene.json")), scene.as_bytes())
+        let mut scene = serde_json::json!({ "mesh": mesh, "unit_cm": made.unit_cm });
+        if let Some(target) = made.target {
+            scene["target"] = target.to_vec().into();
+        }
+        assets::write_file(&folder.join(format!("{stem}.scene.json")), scene.to_string().as_bytes())
     }
 }

@@ -31,6 +31,7 @@ const SCENES: [Row; 13] = [
 ];
 
 /// A scene with its mesh and hierarchy made.
+#[derive(Clone)]
 pub(super) struct Prepared {
     /// What it is called in reports.
     pub(super) name: String,

@@ -1,0 +1,3 @@
+//! Generators and oracles of the fuzzers.
+
+pub use crate::measure::exact;
