@@ -13,7 +13,7 @@ use super::curve::{Curve, Measure, Planted, Row};
 use super::frames::{Pose, bust};
 use super::turns::{Task, Timing, in_turns, timed};
 use crate::canvas::image::Image;
-use crate::measure::MeasureError;
+use crate::measure::{MeasureError, Random};
 use crate::verify::{Defect, Distance, Metric, Probe};
 
 /// What is looked at.
@@ -88,14 +88,15 @@ fn smallest(probe: &Probe, pictures: &[(f64, Image)], by: &[Metric]) -> Option<f
     pictures.iter().find(|(_, picture)| probe.caught(picture, by).is_some()).map(|(share, _)| *share)
 }
 
-/// One pixel in eight a level off, now up, now down.
+/// One pixel in eight, drawn by lot, a level off, up or down.
 fn noisy(image: &Image) -> Image {
-    let mut noisy = image.clone();
-    for (i, texel) in noisy.texels.iter_mut().step_by(8).enumerate() {
-        let up = i % 2 == 0;
-        (0..3).for_each(|c| {
-            texel[c] = if up { texel[c].saturating_add(1) } else { texel[c].saturating_sub(1) }
-        });
+    let (mut noisy, mut random) = (image.clone(), Random::of(0, 0, "noise"));
+    for texel in &mut noisy.texels {
+        if random.once_in(8) {
+            let up = random.once_in(2);
+            let off = |v: u8| if up { v.saturating_add(1) } else { v.saturating_sub(1) };
+            (0..3).for_each(|c| texel[c] = off(texel[c]));
+        }
     }
     noisy
 }

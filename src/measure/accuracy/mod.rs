@@ -8,6 +8,8 @@
 //! | [`shadows`] | sizes of map and filter | rays to the lamp that a filter stands for |
 //! | [`patch`] | octaves, resolution | the patch that they converge to |
 //! | [`keyframes`] | bytes kept for seeking | linear replay: its states, exactly |
+//! | [`lines`] | f32 and f64 with an ε, exact signs | FC in rational arithmetic |
+//! | [`picks`] | every face in f32 and f64, the hierarchy | the ray's meeting with the face, as a fraction |
 //! | [`gates`] | measures of a picture | the defects that were planted |
 //!
 //! A subject gives one or more [`Curve`]s: rows of setting, time and error, and the Pareto front among them. An error says which distance it is, in
@@ -25,9 +27,11 @@ pub mod flip;
 mod frames;
 pub mod gates;
 pub mod keyframes;
+pub mod lines;
 pub mod opening;
 pub mod painting;
 pub mod patch;
+pub mod picks;
 pub mod scattering;
 pub mod shadows;
 mod shapes;
@@ -92,6 +96,12 @@ pub const SUBJECTS: &[Subject] = &[
     Subject { name: "shadows", about: "filtered shadow maps against a lamp", run: shadows::run },
     Subject { name: "patch", about: "octaves and resolution against the converged patch", run: patch::run },
     Subject { name: "keyframes", about: "the time of a seek by the memory kept for it", run: keyframes::run },
+    Subject {
+        name: "lines",
+        about: "FC by an ε and by exact signs, against rational arithmetic",
+        run: lines::run,
+    },
+    Subject { name: "picks", about: "picks against rational arithmetic", run: picks::run },
     Subject { name: "gates", about: "what comparing costs, and the smallest defect caught", run: gates::run },
 ];
 
