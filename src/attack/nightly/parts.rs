@@ -123,11 +123,12 @@ pub(super) fn reached(night: &Night, hits: &mut Reached) -> Part {
 /// The matrix of what was reached; more inputs are drawn while a cell that can be reached is empty, until the time is up.
 pub(super) fn matrix(night: &Night, reached: &Hits, time: Duration) -> (Part, Matrix) {
     let (clock, mut drawn, mut findings) = (Instant::now(), 0, Vec::new());
-    let mut matrix = Matrix::of(reached);
+    let (mut matrix, mut hits) = (Matrix::of(reached), reached.clone());
     while !matrix.empty().is_empty() && clock.elapsed() < time {
         match matrix::sweep(night.seed.wrapping_add(drawn), GUST) {
             Ok(more) => {
-                matrix.cells.iter_mut().zip(&more.cells).for_each(|(cell, more)| cell.hits += more.hits)
+                hits.add(&more);
+                matrix = Matrix::of(&hits);
             }
             // One of them is enough here: the fuzzers have the others.
             Err(finding) if findings.is_empty() => {
