@@ -37,7 +37,7 @@ pub(crate) enum Deed {
 const STAGES: [&str; 7] = ["FC", "GP", "PP", "MC", "CI", "SD", "no such stage"];
 
 pub(crate) fn any_deed() -> impl Strategy<Value = Deed> {
-    let place = || 0..40usize;
+    let place = || 0..160usize;
     prop_oneof![
         4 => prop::collection::vec(any_event(), 1..6).prop_map(Deed::Record),
         1 => Just(Deed::RecordNonsense),
@@ -57,7 +57,7 @@ pub(crate) fn any_event() -> impl Strategy<Value = Input> {
     prop_oneof![
         6 => (any_pick(), any_pick()).prop_map(|(from, to)| script(format!(r#"{{"cut": {{"from": {from}, "to": {to}}}}}"#))),
         4 => any_pixel().prop_map(Input::Point),
-        3 => Just(Input::Undo),
+        4 => Just(Input::Undo),
         3 => Just(Input::Redo),
         2 => prop::sample::select(vec!["carve", "merge", "patch"]).prop_map(|mode| Input::Mode(mode.into())),
         2 => (any_pixel(), prop::sample::select(vec![3, 4, 6]))

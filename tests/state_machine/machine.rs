@@ -4,7 +4,7 @@ use std::path::Path;
 
 use lancet::recording::{AnyRecording, SceneRef};
 use lancet::replay::{Case, Input, Options, Replay};
-use lancet::report::EventReport;
+use lancet::report::{EventReport, Finding};
 
 use crate::deeds::{Deed, SIDE};
 use crate::linear::{Linear, Stand};
@@ -17,7 +17,7 @@ pub(crate) struct Machine {
     options: Options,
     // From here on it is the model.
     recording: AnyRecording,
-    /// Made anew when the events are others.
+    /// Made anew when events come.
     linear: Linear,
     position: usize,
     /// How far the run has ever gone.
@@ -28,6 +28,8 @@ pub(crate) struct Machine {
     live: bool,
     /// Checkpoints so far, those that were dropped too.
     named: usize,
+    /// How many events' reports were compared.
+    compared: usize,
 }
 
 type Done = Result<(), String>;
@@ -54,9 +56,9 @@ impl Machine {
         // The whole state's invariants are looked at often, and how often depends on what was done so far.
         let options = Options { budget_bytes, check_every: 2, ..Options::default() };
         let replay = case.replay(&recording, options.clone(), None).map_err(|error| error.to_string())?;
-        let linear = fresh(&case, &recording, &options)?;
+        let linear = Linear::of(&case, &recording, &options)?;
         let (position, ran, held, live) = (0, 0, false, false);
-        Ok(Self { case, replay, options, recording, linear, position, ran, held, live, named })
+        Ok(Self { case, replay, options, recording, linear, position, ran, held, live, named, compared: 0 })
     }
 
     fn len(&self) -> usize {
@@ -89,6 +91,31 @@ impl Machine {
         }
     }
 
+    /// The kinds of the events that ran, the stages that they went through, what became of them and why.
+    pub(crate) fn seen(&self) -> Vec<String> {
+        let of = |report: &EventReport| {
+            let ran = report.stages.iter().filter(|row| row.skipped.is_none());
+            let stages = ran.map(|row| row.id.clone()).collect::<Vec<_>>();
+            let what = [report.kind.clone(), format!("{:?}", report.outcome)];
+            stages.into_iter().chain(what).chain(report.reason.clone())
+        };
+        (0..self.len()).filter_map(|event| self.replay.event(event)).flat_map(of).collect()
+    }
+
+    /// Goes back to an event; how, as far as the places on the way tell.
+    pub(crate) fn way_back(&mut self, event: usize) -> &'static str {
+        let mut before = Vec::new();
+        self.replay.seek_while(event, &mut |at| {
+            before.extend((at < event).then_some(at));
+            true
+        });
+        match before.first() {
+            None => "step by step",
+            Some(1) => "from the beginning",
+            Some(_) => "from a keyframe",
+        }
+    }
+
     /// It stands before an event, and has run all up to it.
     fn stand_at(&mut self, event: usize) {
         (self.position, self.held) = (event, false);
@@ -107,8 +134,7 @@ impl Machine {
             self.replay.append(key, &input)?;
             self.live = true;
         }
-        self.linear = fresh(&self.case, &self.recording, &self.options)?;
-        Ok(())
+        self.linear.grow(&self.case, &self.recording, &self.options)
     }
 
     fn record_nonsense(&mut self, story: &mut Story) -> Done {
@@ -124,7 +150,8 @@ impl Machine {
         if events < self.len() {
             self.recording.truncate(events);
             story.recording = Some(self.recording.clone());
-            self.linear = fresh(&self.case, &self.recording, &self.options)?;
+            self.linear.truncate(events);
+            self.compared = self.compared.min(events);
             (self.position, self.ran) = (self.position.min(events), self.ran.min(events));
             (self.held, self.live) = (false, true);
         }
@@ -195,19 +222,34 @@ impl Machine {
     }
 
     /// Compares all that can be seen of the session with the model.
-    pub(crate) fn compare(&self) -> Done {
+    pub(crate) fn compare(&mut self) -> Done {
         let (replay, at) = (self.replay.as_ref(), self.position);
         let place = [replay.position(), replay.len()];
         ensure(place == [at, self.len()], || {
             format!("it stands at {place:?}, not at {at} of {}", self.len())
         })?;
-        ensure(replay.finding().is_none(), || format!("a finding: {:#?}", replay.finding()))?;
+        let (finding, expected) = (replay.finding(), self.finding());
+        ensure(finding == expected, || format!("a finding: {finding:#?}\nnot: {expected:#?}"))?;
         let (kept, budget) = (replay.kept_bytes(), self.options.budget_bytes);
         ensure(kept <= budget, || format!("{kept} bytes are kept, of {budget}"))?;
         if !self.held {
             self.compare_stand()?;
         }
-        self.compare_reports()
+        self.compare_reports(self.compared)?;
+        self.compared = self.ran;
+        Ok(())
+    }
+
+    /// The same, and all that was ever reported.
+    pub(crate) fn compare_all(&mut self) -> Done {
+        self.compare()?;
+        self.compare_reports(0)
+    }
+
+    /// The first broken invariant among the events that ever ran, or of the end.
+    fn finding(&self) -> Option<&Finding> {
+        let ended = !self.live && self.ran == self.len();
+        self.linear.finding.as_ref().filter(|finding| finding.event.map_or(ended, |event| event < self.ran))
     }
 
     fn compare_stand(&self) -> Done {
@@ -218,8 +260,10 @@ impl Machine {
     }
 
     /// Every event that ever ran is reported as it should be, and no other.
-    fn compare_reports(&self) -> Done {
-        for event in 0..=self.len() {
+    fn compare_reports(&self, from: usize) -> Done {
+        let known = (0..=self.len()).filter(|event| self.replay.event(*event).is_some()).count();
+        ensure(known == self.ran, || format!("{known} events have a report, where {} ran", self.ran))?;
+        for event in from..=self.ran {
             let report = self.replay.event(event).map(EventReport::without_times);
             let expected = self.linear.reports.get(event).filter(|_| event < self.ran);
             ensure(report.as_ref() == expected, || {
@@ -238,11 +282,6 @@ fn ensure(holds: bool, otherwise: impl FnOnce() -> String) -> Done {
 
 fn script(text: &&str) -> Input {
     Input::Script((*text).into())
-}
-
-/// A linear replay that keeps all it can: it is never sent back.
-fn fresh(case: &Case, recording: &AnyRecording, options: &Options) -> Result<Linear, String> {
-    Linear::of(case, recording, Options { budget_bytes: usize::MAX, ..options.clone() })
 }
 
 /// The event, with a name of its own if it is a checkpoint.

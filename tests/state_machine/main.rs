@@ -13,26 +13,37 @@ mod machine;
 mod scenes;
 mod story;
 
+use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use lancet::recording::SceneRef;
 use lancet::replay::Input;
 use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::TestRunner;
 
 use deeds::Deed;
 use machine::Machine;
 use story::Story;
 
-/// Cases where nobody asks for another number: some ten seconds without optimisation.
-const CASES: u32 = 48;
+/// Cases where nobody asks for another number: some seconds without optimisation.
+const CASES: u32 = 100;
 
-/// Bytes that going back may take: none, some steps, some steps and keyframes, all.
-const BUDGETS: [usize; 4] = [0, 4 << 10, 64 << 10, 256 << 20];
+/// How long a failure may be shrunk, milliseconds.
+const SHRINKING_MS: u32 = 60_000;
+
+/// Bytes that going back may take: none, a few steps, some steps and keyframes, all steps.
+const BUDGETS: [usize; 7] = [0, 4 << 10, 24 << 10, 32 << 10, 48 << 10, 64 << 10, 256 << 20];
 
 fn config() -> ProptestConfig {
     let asked = std::env::var("PROPTEST_CASES").ok().and_then(|cases| cases.parse().ok());
-    // What failed is kept as a recording.
-    ProptestConfig { cases: asked.unwrap_or(CASES), failure_persistence: None, ..ProptestConfig::default() }
+    // What failed is kept as a recording. Shrinking it has to end at some time.
+    ProptestConfig {
+        cases: asked.unwrap_or(CASES),
+        failure_persistence: None,
+        max_shrink_time: SHRINKING_MS,
+        ..ProptestConfig::default()
+    }
 }
 
 proptest! {
@@ -41,7 +52,7 @@ proptest! {
     #[test]
     fn whatever_is_done_to_it_a_session_stands_where_linear_replay_does(
         scene in scenes::any_scene(),
-        first in prop::collection::vec(deeds::any_event(), 0..10),
+        first in prop::collection::vec(deeds::any_event(), 0..150),
         deeds in prop::collection::vec(deeds::any_deed(), 1..20),
         budget in prop::sample::select(BUDGETS.to_vec()),
     ) {
@@ -79,9 +90,57 @@ fn carry_out(
     }
     for deed in [Deed::Seek(0), Deed::Finish] {
         machine.carry_out(&deed, story)?;
-        machine.compare()?;
+        machine.compare_all()?;
     }
     Ok(())
+}
+
+/// What was never done cannot have been right.
+#[test]
+fn the_events_reach_every_stage_and_outcome() {
+    let mut runner = TestRunner::deterministic();
+    let strategy = (scenes::any_scene(), prop::collection::vec(deeds::any_event(), 10..20));
+    let mut seen = BTreeSet::new();
+    for _ in 0..100 {
+        let (scene, events) = strategy.new_tree(&mut runner).expect("a value").current();
+        let mut machine =
+            Machine::begin(&scene, &events, usize::MAX, &mut Story::default()).expect("it opens");
+        machine.carry_out(&Deed::Finish, &mut Story::default()).expect("it runs");
+        seen.extend(machine.seen());
+    }
+    let kinds = ["camera", "click", "cut", "mode", "subdivide", "undo", "redo", "set", "checkpoint"];
+    let stages = ["FC", "GP", "PP", "MC", "CI", "SD"];
+    let outcomes = ["None", "Pending", "Applied", "Rejected", "Cancelled"];
+    let reasons = ["miss", "no-such-element", "nothing-to-undo", "nothing-to-redo"];
+    let missing = [&kinds[..], &stages, &outcomes, &reasons].concat();
+    let missing: Vec<_> = missing.into_iter().filter(|what| !seen.contains(*what)).collect();
+    assert!(missing.is_empty(), "{missing:?} of {seen:?}");
+}
+
+/// Nor what nobody came by: steps that are kept, keyframes, and the very beginning.
+#[test]
+fn the_budgets_reach_every_way_back() {
+    let mut runner = TestRunner::deterministic();
+    let strategy = (
+        scenes::any_scene(),
+        prop::collection::vec(deeds::any_event(), 150),
+        prop::sample::select(BUDGETS.to_vec()),
+    );
+    let mut seen = BTreeSet::new();
+    for _ in 0..60 {
+        let (scene, events, budget) = strategy.new_tree(&mut runner).expect("a value").current();
+        let mut machine = Machine::begin(&scene, &events, budget, &mut Story::default()).expect("it opens");
+        machine.carry_out(&Deed::Finish, &mut Story::default()).expect("it runs");
+        // Keyframes are kept once the steps are too many: here when all is run again.
+        for deed in [Deed::Seek(0), Deed::Finish] {
+            machine.carry_out(&deed, &mut Story::default()).expect("it runs");
+        }
+        seen.insert(machine.way_back(20));
+    }
+    assert_eq!(
+        seen.into_iter().collect::<Vec<_>>(),
+        ["from a keyframe", "from the beginning", "step by step"]
+    );
 }
 
 #[test]
