@@ -15,7 +15,7 @@
 //! | [`replay`] | the session: events through stages, clock, digests, checks, journal, keyframes, seek |
 //! | [`verify`] | goldens and their pictures: compare, bless, shard and merge, pages |
 //! | [`measure`] | time against error, stability, scaling, the thesis's tables |
-//! | [`attack`] | generators and oracles of the fuzzers |
+//! | [`attack`] | what the fuzzers make of bytes, and what must hold for it; the nightly run |
 //! | [`cli`] | the command line |
 //! | [`tui`] | the terminal: the same reports, to step through, and recordings made by hand |
 //!
@@ -57,6 +57,7 @@
 #![warn(missing_docs)]
 
 pub mod assets;
+#[cfg(feature = "attack")]
 pub mod attack;
 pub mod canvas;
 pub mod cli;

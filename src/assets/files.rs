@@ -46,6 +46,15 @@ pub fn remove_file(path: &Path) -> Result<(), AssetError> {
     }
 }
 
+/// Gives a file another name. Of several programs that do so at once with one file exactly one is told that it did; to the others it is not there.
+pub fn take_file(from: &Path, to: &Path) -> Result<bool, AssetError> {
+    match fs::rename(from, to) {
+        Ok(()) => Ok(true),
+        Err(e) if e.kind() == io::ErrorKind::NotFound && !from.exists() => Ok(false),
+        Err(e) => Err(AssetError::io(from, &e)),
+    }
+}
+
 /// The path of a folder without links and `..`, so that paths relative to it lead where they seem to. It is made if it is not there.
 pub fn real_folder(folder: &Path) -> Result<PathBuf, AssetError> {
     let real = fs::create_dir_all(folder).and_then(|()| fs::canonicalize(folder));
@@ -152,6 +161,24 @@ mod tests {
         assert_eq!(newest_files(folder.path()).expect("listed"), [at("c"), at("a")]);
         assert!(remove_file(&at("below")).is_err(), "a folder is no file");
         assert!(newest_files(&at("nowhere")).expect("none").is_empty());
+    }
+
+    #[test]
+    fn a_file_is_taken_once_whoever_else_wants_it() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        write_file(&at("draft"), b"x").expect("written");
+        let takers: Vec<PathBuf> = (0..8).map(|taker| at(&format!("of-{taker}"))).collect();
+        let take = &|to: &PathBuf| take_file(&at("draft"), to).expect("no other error");
+        let taken: Vec<bool> = std::thread::scope(|scope| {
+            let takers: Vec<_> = takers.iter().map(|to| scope.spawn(move || take(to))).collect();
+            takers.into_iter().map(|taker| taker.join().expect("no panic")).collect()
+        });
+        assert_eq!(taken.iter().filter(|taken| **taken).count(), 1);
+        let there: Vec<bool> = takers.iter().map(|path| is_file(path)).collect();
+        assert_eq!(there, taken);
+        write_file(&at("other"), b"y").expect("written");
+        assert!(take_file(&at("other"), &at("no/folder/x")).is_err() && is_file(&at("other")));
     }
 
     #[test]

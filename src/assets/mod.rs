@@ -35,12 +35,13 @@ pub use cache::CacheOptions;
 pub use error::{AssetError, Fault, FaultKind, Place};
 pub use files::{
     is_file, is_folder, list_files, list_folder, moved, newest_files, read_file, real_folder, remove_file,
-    write_file,
+    take_file, write_file,
 };
 pub use inspect::{MeshFacts, inspect};
 pub use maps::{MapSources, read_png, write_png};
 pub use open::{Loaded, open};
 pub use scene::SceneSettings;
+pub use source::{is_mesh, read_mesh};
 
 /// Something that was changed or passed over while a mesh was read.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]

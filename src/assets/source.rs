@@ -31,6 +31,11 @@ impl Format {
     }
 }
 
+/// Whether a file is a mesh, by its name.
+pub fn is_mesh(path: &Path) -> bool {
+    Format::of(path).is_some()
+}
+
 /// A mesh file in memory.
 #[derive(Debug)]
 pub(super) struct Source {
@@ -44,12 +49,26 @@ pub(super) struct Source {
 impl Source {
     /// Reads a file, and those that it names.
     pub(super) fn read(path: &Path) -> Result<Self, AssetError> {
-        let format = Format::of(path).ok_or_else(|| {
-            Fault::whole(FaultKind::Unsupported, "a mesh file ends in .obj, .ply, .gltf or .glb")
-                .in_file(path)
-        })?;
-        let bytes = read_file(path)?;
-        let buffers = if format == Format::Gltf { read_buffers(path, &bytes)? } else { Vec::new() };
+        let format = format_of(path)?;
+        Self::with_files(path, format, read_file(path)?, read_file)
+    }
+
+    /// The same of bytes that are no file: those of others cannot be had.
+    pub(super) fn of_bytes(name: &Path, bytes: Vec<u8>) -> Result<Self, AssetError> {
+        let none = |other: &Path| {
+            let detail = format!("it names the file {}, and none is opened", other.display());
+            Err(Fault::whole(FaultKind::Unsupported, detail).in_file(name))
+        };
+        Self::with_files(name, format_of(name)?, bytes, none)
+    }
+
+    fn with_files(
+        path: &Path,
+        format: Format,
+        bytes: Vec<u8>,
+        load: impl Fn(&Path) -> Result<Vec<u8>, AssetError>,
+    ) -> Result<Self, AssetError> {
+        let buffers = if format == Format::Gltf { read_buffers(path, &bytes, load)? } else { Vec::new() };
         Ok(Self { path: path.to_path_buf(), format, bytes, buffers })
     }
 
@@ -82,20 +101,39 @@ impl Source {
     }
 }
 
+/// The mesh in a file's bytes, repaired where need be, with what was changed. Its format is that of the name; nothing is opened, so a glTF that
+/// names other files is refused.
+pub fn read_mesh(name: &Path, bytes: &[u8]) -> Result<(Mesh, Vec<Note>), AssetError> {
+    Source::of_bytes(name, bytes.to_vec())?.build()
+}
+
+fn format_of(path: &Path) -> Result<Format, AssetError> {
+    let detail = "a mesh file ends in .obj, .ply, .gltf or .glb";
+    Format::of(path).ok_or_else(|| Fault::whole(FaultKind::Unsupported, detail).in_file(path))
+}
+
 /// The buffers that a glTF names. Their paths are relative to it and may lead anywhere that the user may read.
 #[cfg(feature = "gltf")]
-fn read_buffers(path: &Path, bytes: &[u8]) -> Result<Vec<Vec<u8>>, AssetError> {
+fn read_buffers(
+    path: &Path,
+    bytes: &[u8],
+    load: impl Fn(&Path) -> Result<Vec<u8>, AssetError>,
+) -> Result<Vec<Vec<u8>>, AssetError> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let uris = super::gltf::buffer_uris(bytes).map_err(|fault| fault.in_file(path))?;
-    let load = |uri: super::gltf::Uri| match uri {
+    let bytes_of = |uri: super::gltf::Uri| match uri {
         super::gltf::Uri::Data(data) => Ok(data),
-        super::gltf::Uri::File(name) => read_file(&folder.join(name)),
+        super::gltf::Uri::File(name) => load(&folder.join(name)),
     };
-    uris.into_iter().map(load).collect()
+    uris.into_iter().map(bytes_of).collect()
 }
 
 #[cfg(not(feature = "gltf"))]
-fn read_buffers(path: &Path, _: &[u8]) -> Result<Vec<Vec<u8>>, AssetError> {
+fn read_buffers(
+    path: &Path,
+    _: &[u8],
+    _: impl Fn(&Path) -> Result<Vec<u8>, AssetError>,
+) -> Result<Vec<Vec<u8>>, AssetError> {
     Err(without_gltf().in_file(path))
 }
 

@@ -1,5 +1,6 @@
 //! What the user typed: the one source of the parser, the help, the completions and the man page.
 
+mod nightly;
 mod values;
 
 use std::path::PathBuf;
@@ -9,6 +10,7 @@ use clap::{Parser, Subcommand, ValueEnum, ValueHint};
 use crate::replay::Plant;
 use crate::report::Stop;
 use crate::verify::Shard;
+pub(super) use nightly::Nightly;
 pub(super) use values::{Setting, Size, Target, Until};
 
 const AFTER: &str = "Exit status: 0 when all is verified, 1 when something diverged or an invariant broke, 2 for bad input or when \
@@ -37,6 +39,7 @@ pub(super) enum Command {
     Diff(Diff),
     Check(Check),
     Measure(Measure),
+    Nightly(Nightly),
     /// List the scenes that are made by code
     Scenes,
     /// Say what the program and the machine are
@@ -249,7 +252,7 @@ pub(super) enum Ground {
 #[derive(Debug, clap::Args)]
 #[cfg_attr(feature = "tui", command(after_help = settings()))]
 pub(super) struct Tui {
-    /// The recording
+    /// The recording or script; or what to begin one on: a scene (.json), a mesh (OBJ, glTF, PLY) or builtin:NAME
     #[arg(value_name = "REC", value_hint = ValueHint::FilePath)]
     pub(super) recording: Option<PathBuf>,
     /// Who renders
@@ -267,7 +270,8 @@ pub(super) struct Tui {
     /// The settings to use [default: config.toml in the user's folder of settings]
     #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
     pub(super) config: Option<PathBuf>,
-    /// Instead of taking the terminal, write what the screen shows: as text, or as a picture where F ends in .svg
+    /// Instead of taking the terminal, write what the screen shows: as text, or as a picture where F ends in .svg. The status is that
+    /// of `verify` where something was compared, else that of `replay`
     #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
     pub(super) screen: Option<Target>,
     /// Type these keys first, with blanks between them, such as `l l s shift-tab`
@@ -434,6 +438,8 @@ pub(super) enum Measured {
         #[command(flatten)]
         common: MeasureOptions,
     },
+    /// Time against error, for each of several subjects: a table, and a plot
+    Accuracy(Accuracy),
     /// Random and hostile cuts over the built-in scenes, every invariant looked at
     Stability {
         /// How many random cuts [default: 100000; quick: 2000]
@@ -451,9 +457,43 @@ pub(super) enum Measured {
         /// Write a script for each finding into this folder
         #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
         findings: Option<PathBuf>,
+        /// Write a picture of each ladder into this folder, as SVG
+        #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+        plot: Option<PathBuf>,
         #[command(flatten)]
         common: MeasureOptions,
     },
+}
+
+/// Time against error.
+#[derive(Debug, clap::Args)]
+pub(super) struct Accuracy {
+    /// Only these subjects
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    pub(super) only: Vec<String>,
+    /// Take times in so many rounds [default: 30; quick: 8]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub(super) rounds: Option<u32>,
+    /// Write a plot of each curve into this folder, as SVG
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub(super) plot: Option<PathBuf>,
+    /// Fail where a setting got both slower and less accurate than in this file
+    #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
+    pub(super) against: Option<PathBuf>,
+    /// Write what was measured into that file instead
+    #[arg(long, requires_all = ["against", "reason"])]
+    pub(super) bless: bool,
+    /// Why the curves may be what they are now
+    #[arg(long, value_name = "TEXT", requires = "bless")]
+    pub(super) reason: Option<String>,
+    /// The folder of recordings
+    #[arg(long, value_name = "DIR", default_value = "recordings/wound", value_hint = ValueHint::DirPath)]
+    pub(super) recordings: PathBuf,
+    /// Who renders
+    #[arg(long, value_enum, default_value_t, value_name = "WHO")]
+    pub(super) renderer: Renderer,
+    #[command(flatten)]
+    pub(super) common: MeasureOptions,
 }
 
 /// What every measurement can be asked for.

@@ -6,16 +6,18 @@ use std::sync::{Mutex, PoisonError};
 
 use serde::Serialize;
 
-use super::args::{Measure, MeasureOptions, Measured};
+use super::args::{Accuracy, Measure, MeasureOptions, Measured};
 use super::console::Channel;
 use super::failure::Failure;
 use super::pixels::studio;
 use super::table::TextTable;
 use super::verify::jobs;
 use super::{Console, Done, Status, json};
+use crate::assets;
+use crate::measure::accuracy::{self, AccuracyReport, Ask, Stored};
 use crate::measure::stability::report::StabilityFinding;
 use crate::measure::stability::{self, StabilityReport};
-use crate::measure::{MeasureError, scaling, thesis};
+use crate::measure::{MeasureError, plot, scaling, thesis};
 use crate::report::Table;
 
 pub(super) fn run(typed: &Measure, console: &mut Console<'_>) -> Done {
@@ -33,15 +35,66 @@ pub(super) fn run(typed: &Measure, console: &mut Console<'_>) -> Done {
             let report = showing(console, |told| scaling::measure(sizes, rounds, told))?;
             answer(&report, &report.tables(), common, console)
         }
-        Measured::Stability { cuts, per_rung, seed, jobs: threads, findings, common } => {
+        Measured::Accuracy(typed) => accuracy(typed, console),
+        Measured::Stability { cuts, per_rung, seed, jobs: threads, findings, plot, common } => {
             let cuts = or_else(*cuts, common, [100_000, 2_000]);
             let per_rung = or_else(*per_rung, common, [400, 40]);
             let options = stability::Options { cuts, per_rung, seed: *seed, jobs: jobs(*threads) };
             let report = showing(console, |told| stability::measure(&options, told))?;
             answer(&report, &report.tables(), common, console)?;
+            if let Some(folder) = plot {
+                draw_ladders(&report, folder)?;
+            }
             broken(&report, findings.as_deref(), common, console)
         }
     }
+}
+
+fn accuracy(typed: &Accuracy, console: &mut Console<'_>) -> Done {
+    let studio = studio(typed.renderer, console)?;
+    let stored = typed.against.as_deref().filter(|_| !typed.bless).map(read_curves).transpose()?;
+    let ask = Ask {
+        quick: typed.common.quick,
+        rounds: or_else(typed.rounds, &typed.common, [30, 8]),
+        recordings: &typed.recordings,
+        studio: studio.as_ref(),
+    };
+    let report = showing(console, |told| accuracy::measure(&typed.only, &ask, told))?;
+    answer(&report, &report.tables(), &typed.common, console)?;
+    if let Some(folder) = &typed.plot {
+        write_plots(&report, folder)?;
+    }
+    let mut faults = report.untrusted();
+    match (&typed.against, &typed.reason, stored) {
+        (Some(file), Some(reason), None) if faults.is_empty() => {
+            assets::write_file(file, &Stored::of(&report, reason).text())?;
+        }
+        (.., Some(stored)) => faults.extend(stored.compare(&report)),
+        _ => {}
+    }
+    let to = json::text([&typed.common.json], console);
+    faults.iter().try_for_each(|fault| writeln!(to, "{} {fault}", to.bad("finding:")))?;
+    Ok(if faults.is_empty() { Status::Verified } else { Status::Diverged })
+}
+
+fn read_curves(file: &Path) -> Result<Stored, Failure> {
+    Stored::parse(&assets::read_file(file)?).map_err(|why| Failure::about(file)(&why))
+}
+
+fn write_plots(report: &AccuracyReport, folder: &Path) -> Result<(), Failure> {
+    for curve in &report.curves {
+        let file = folder.join(format!("{}.svg", curve.name));
+        assets::write_file(&file, plot::svg(&curve.plot()).as_bytes())?;
+    }
+    Ok(())
+}
+
+fn draw_ladders(report: &StabilityReport, folder: &Path) -> Result<(), Failure> {
+    for ladder in &report.ranges.ladders {
+        let (name, picture) = ladder.plot();
+        assets::write_file(&folder.join(name), picture.as_bytes())?;
+    }
+    Ok(())
 }
 
 /// What was typed, or what is usual, or what is quick.
@@ -74,7 +127,7 @@ fn answer(
 }
 
 /// A table of figures: all but the first column stand to the right.
-fn show(table: &Table, to: &mut Channel<'_>) -> io::Result<()> {
+pub(super) fn show(table: &Table, to: &mut Channel<'_>) -> io::Result<()> {
     writeln!(to, "{}", to.faint(&table.title))?;
     let head = |(i, head): (usize, &String)| if i == 0 { head.clone() } else { format!(">{head}") };
     let heads: Vec<String> = table.columns.iter().enumerate().map(head).collect();

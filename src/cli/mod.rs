@@ -19,6 +19,7 @@ mod json;
 mod man;
 mod measure;
 mod merge;
+mod nightly;
 mod orbit;
 mod pack;
 mod picture;
@@ -108,6 +109,7 @@ fn dispatch(command: Command, console: &mut Console<'_>) -> Done {
         Command::Diff(typed) => diff::run(&typed, console),
         Command::Check(typed) => check::run(&typed, console),
         Command::Measure(typed) => measure::run(&typed, console),
+        Command::Nightly(typed) => nightly::run(&typed, console),
         Command::Scenes => scenes::run(console),
         Command::Doctor => doctor::run(console),
         Command::Schema(typed) => schema::run(&typed, console),

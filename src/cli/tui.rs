@@ -4,6 +4,8 @@
 use super::Status;
 use super::args::Tui;
 use super::failure::Failure;
+#[cfg(feature = "tui")]
+use super::place;
 use super::{Console, Done};
 
 #[cfg(feature = "tui")]
@@ -67,6 +69,11 @@ fn screen(
     use crate::tui::theme::Theme;
     use crate::tui::{Stage, screen};
 
+    // What was typed is looked at before anything is opened, which may take long.
+    let keys = Stage::keys(&typed.keys).map_err(|why| Failure::new(format_args!("--keys: {why}")))?;
+    if let (Some(recording), Target::File(path)) = (&typed.recording, target) {
+        place::require_other(recording, path)?;
+    }
     let [width, height] = typed.size.0.map(|side| u16::try_from(side).unwrap_or(u16::MAX));
     if u32::from(width) * u32::from(height) > MOST_CELLS {
         return Err(Failure::new(format_args!("--size {width}x{height}: at most {MOST_CELLS} cells")));
@@ -76,7 +83,7 @@ fn screen(
     // A picture shows every colour, whatever this terminal can.
     let theme = if is_picture { Theme::new(chosen.base(), Depth::Full) } else { chosen };
     let mut stage = Stage::open(start, theme.clone(), [width, height], false);
-    stage.press(&typed.keys).map_err(|why| Failure::new(format_args!("--keys: {why}")))?;
+    keys.into_iter().for_each(|key| stage.press_key(key));
     let buffer = stage.screen();
     match target {
         Target::File(path) if is_picture => {
@@ -85,7 +92,18 @@ fn screen(
         Target::File(path) => assets::write_file(path, screen::to_text(&buffer).as_bytes())?,
         Target::Stdout => console.out.write_all(screen::to_text(&buffer).as_bytes())?,
     }
-    stage.failure().map_or(Ok(Status::Verified), |why| Err(Failure::new(why)))
+    status(&stage)
+}
+
+/// As `verify` and `replay` end: what could not be opened or compared is a failure, what differs or broke is none of the program's.
+#[cfg(feature = "tui")]
+fn status(stage: &crate::tui::Stage) -> Done {
+    match (stage.failure(), stage.compared()) {
+        (Some(why), _) | (None, Some(Err(why))) => Err(Failure::new(why)),
+        (None, Some(Ok(false))) => Ok(Status::Diverged),
+        (None, _) if stage.has_finding() => Ok(Status::Diverged),
+        (None, _) => Ok(Status::Verified),
+    }
 }
 
 /// No screen has more.

@@ -50,9 +50,19 @@ const UNDERFLOW: f64 = f64::MIN_POSITIVE;
 /// The bound's own sums are rounded too.
 const GROWTH: f64 = 1.0 + 8.0 * f64::EPSILON;
 
+/// Bounds of a value that is not known at all.
+pub(super) const EVERYWHERE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
 impl Approx {
     fn rounded(value: f64, inherited: f64) -> Self {
         Self { value, error: (inherited + value.abs() * ROUNDING + UNDERFLOW) * GROWTH }
+    }
+
+    /// Between which floats the true value lies; anywhere, where that is lost.
+    pub(super) fn bounds(self) -> [f64; 2] {
+        let [low, high] = [self.value - self.error, self.value + self.error];
+        // The bounds are rounded as well.
+        if low.is_finite() && high.is_finite() { [low.next_down(), high.next_up()] } else { EVERYWHERE }
     }
 
     fn sign(self) -> Option<Ordering> {

@@ -6,7 +6,7 @@ use std::cmp::Ordering;
 
 use glam::DVec3;
 
-use super::exact::{Formula, Number, cross, difference, dot, sign};
+use super::exact::{Approx, EVERYWHERE, Formula, Number, cross, difference, dot, sign};
 
 /// The sign of a determinant.
 pub type Sign = Ordering;
@@ -134,6 +134,20 @@ pub fn nearer(origin: DVec3, through: DVec3, a: [DVec3; 3], b: [DVec3; 3]) -> Si
     if fall(a) == fall(b) { order } else { order.reverse() }
 }
 
+/// Bounds of the parameter at which a ray from `origin` through `through` meets a triangle's plane, in lengths from the one to the other.
+/// They are as near as the rounding of a few products allows: for a sliver seen edge-on that may be anywhere.
+pub fn parameter(origin: DVec3, through: DVec3, t: [DVec3; 3]) -> [f64; 2] {
+    let (numerator, denominator) = fraction::<Approx>(origin, through, t);
+    let (n, d) = (numerator.bounds(), denominator.bounds());
+    if d[0] <= 0.0 && d[1] >= 0.0 {
+        return EVERYWHERE;
+    }
+    let quotients = [n[0] / d[0], n[0] / d[1], n[1] / d[0], n[1] / d[1]];
+    let low = quotients.into_iter().fold(f64::INFINITY, f64::min);
+    let high = quotients.into_iter().fold(f64::NEG_INFINITY, f64::max);
+    [low.next_down(), high.next_up()]
+}
+
 /// The ray's direction along a triangle's normal: the denominator of its parameter.
 struct Fall {
     origin: DVec3,
@@ -201,6 +215,19 @@ mod tests {
             assert_eq!(orient3d(a, b, c, d), Ordering::Greater, "{scale:e}");
             assert_eq!(orient2d(Axis(2), a, b, c), Ordering::Greater, "{scale:e}");
         }
+    }
+
+    #[test]
+    fn a_parameter_lies_within_its_bounds_and_a_sliver_edge_on_has_wide_ones() {
+        let t = [DVec3::new(0.0, 0.0, 0.3), DVec3::new(1.0, 0.0, 0.3), DVec3::new(0.0, 1.0, 0.3)];
+        let (eye, through) = (DVec3::new(0.2, 0.2, 1.3), DVec3::new(0.2, 0.2, 0.8));
+        let [low, high] = parameter(eye, through, t);
+        assert!(low < 2.0 && 2.0 < high && high - low < 1e-13, "{low} {high}");
+        let sliver =
+            [DVec3::new(0.1, 0.2, 0.3), DVec3::new(1.1, 0.9, 1.7), DVec3::new(0.6, 0.55, 1.0 + 1e-15)];
+        let [low, high] = parameter(eye, through, sliver);
+        assert!(high - low > 1e-6, "{low} {high}");
+        assert_eq!(parameter(eye, eye + DVec3::X, t), EVERYWHERE);
     }
 
     #[test]

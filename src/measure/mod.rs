@@ -7,14 +7,17 @@
 //! | [`stability`] | random and adversarial cuts: outcomes, and every broken invariant; how far coordinates may go |
 //! | [`exact`] | FC in rational arithmetic: what lines are compared with, and their errors measured from |
 //! | [`baseline`] | FC with an ε, in plain f32 and f64, for comparison |
+//! | [`accuracy`] | time against error, with a [`plot`] of each |
 //!
 //! A report is plain data that serializes, and gives itself as [`Table`](crate::report::Table)s; this room writes nowhere but the
 //! scripts of findings. Times are medians with their quartiles, since a shared machine disturbs in one direction only and means follow it.
 
+pub mod accuracy;
 pub mod baseline;
 mod drive;
 pub mod exact;
 mod figure;
+pub mod plot;
 mod random;
 pub mod scaling;
 pub mod stability;
@@ -48,6 +51,8 @@ pub enum MeasureError {
     Builtin(BuiltinError),
     /// A scene is no mesh.
     Build(BuildError),
+    /// There is nothing of this name to measure.
+    NoSubject(String),
 }
 
 impl fmt::Display for MeasureError {
@@ -61,6 +66,7 @@ impl fmt::Display for MeasureError {
             Self::Render(error) => error.fmt(f),
             Self::Builtin(error) => error.fmt(f),
             Self::Build(error) => error.fmt(f),
+            Self::NoSubject(what) => write!(f, "there is no subject {what}"),
         }
     }
 }

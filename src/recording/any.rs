@@ -4,6 +4,7 @@ use crate::engine::wound::WoundEvent;
 use crate::engine::{Event, Input};
 
 use super::{Recording, SceneRef, rules};
+use crate::report::quoted;
 
 /// The engines' names, as they stand in files and scripts; the first is a script's default.
 pub const ENGINES: &[&str] = &[WoundEvent::ENGINE];
@@ -84,7 +85,8 @@ impl AnyRecording {
     /// A recording of nothing yet, for an engine by its name. Its hashes are not known. An error says why there is none.
     pub fn begin(engine: &str, scene: SceneRef, viewport: [u32; 2]) -> Result<Self, String> {
         rules::viewport(viewport).map_err(|what| format!("viewport: {what}"))?;
-        for_engine(engine, Begin { scene, viewport }).ok_or_else(|| format!("there is no engine {engine:?}"))
+        let none = || format!("there is no engine {}", quoted(engine));
+        for_engine(engine, Begin { scene, viewport }).ok_or_else(none)
     }
 
     /// Does something that holds for every engine.

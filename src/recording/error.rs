@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::frame::VERSION;
 use super::{AnyRecording, ENGINES};
+use crate::report::quoted;
 
 /// What is wrong with a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -52,7 +53,7 @@ impl fmt::Display for Cause {
             Self::NotARecording => write!(f, "not a recording: it does not begin as one"),
             Self::UnknownVersion(v) => write!(f, "format version {v}; this program knows 1 to {VERSION}"),
             Self::UnknownEngine(name) => {
-                write!(f, "there is no engine {name:?}; there is {}", ENGINES.join(", "))
+                write!(f, "there is no engine {}; there is {}", quoted(name), ENGINES.join(", "))
             }
             Self::CutOff { missing } => {
                 write!(f, "the file ends here; bytes missing: at least {missing}, or a length is damaged")

@@ -3,6 +3,7 @@
 use rustc_hash::FxHashSet;
 
 use crate::engine::{Control, Event};
+use crate::report::quoted;
 
 /// Width and height of a view where nobody says otherwise.
 pub const VIEWPORT: [u32; 2] = [1280, 720];
@@ -37,11 +38,11 @@ impl Names {
     fn name(&mut self, name: &str) -> Result<(), String> {
         let plain = |b: u8| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-';
         if !(1..=MAX_NAME).contains(&name.len()) || !name.bytes().all(plain) {
-            return Err(format!("{name:?} is not 1 to {MAX_NAME} of a-z, 0-9 and -"));
+            return Err(format!("{} is not 1 to {MAX_NAME} of a-z, 0-9 and -", quoted(name)));
         }
         match self.0.insert(name.to_owned()) {
             true => Ok(()),
-            false => Err(format!("there is a checkpoint named {name:?} already")),
+            false => Err(format!("there is a checkpoint named {} already", quoted(name))),
         }
     }
 }

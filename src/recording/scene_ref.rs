@@ -11,6 +11,8 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use crate::report::quoted;
+
 const PREFIX: &str = "builtin:";
 const EXPECTED: &str = "\"builtin:NAME\", {\"file\": …}, {\"mesh\": …} or {\"inline\": …}";
 
@@ -132,7 +134,7 @@ impl<'de> Visitor<'de> for InScript {
 
     fn visit_str<X: Error>(self, text: &str) -> Result<SceneRef, X> {
         SceneRef::parse_builtin(text)
-            .ok_or_else(|| X::custom(format_args!("{text:?} is no scene; expected {EXPECTED}")))
+            .ok_or_else(|| X::custom(format_args!("{} is no scene; expected {EXPECTED}", quoted(text))))
     }
 
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<SceneRef, A::Error> {

@@ -14,6 +14,7 @@ use super::any::{ForEngine, for_engine};
 use super::rules::{self, MAX_SIDE, Names, VIEWPORT};
 use super::{AnyRecording, ENGINES, Keyed, Recorded, Recording, SceneRef, ScriptError};
 use crate::engine::Event;
+use crate::report::quoted;
 
 const VERSION: u64 = 1;
 
@@ -198,7 +199,8 @@ impl<'de> Deserialize<'de> for Engine {
         if ENGINES.contains(&name.as_str()) {
             return Ok(Self(name));
         }
-        Err(D::Error::custom(format_args!("there is no engine {name:?}; there is {}", ENGINES.join(", "))))
+        let (name, known) = (quoted(name), ENGINES.join(", "));
+        Err(D::Error::custom(format_args!("there is no engine {name}; there is {known}")))
     }
 }
 

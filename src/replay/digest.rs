@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use crate::report::{Buffer, EventReport, Outcome, StateReport};
 
 /// The seed of an event: the first 8 bytes, little-endian, of the hash of the recording's seed, the event's key and a purpose.
-pub(super) fn event_seed(recording_seed: u64, key: u32, purpose: &str) -> u64 {
+pub fn event_seed(recording_seed: u64, key: u32, purpose: &str) -> u64 {
     let mut hasher = blake3::Hasher::new();
     hasher.update(&recording_seed.to_le_bytes());
     hasher.update(&key.to_le_bytes());

@@ -28,7 +28,8 @@ mod timeline;
 pub(crate) mod toy;
 
 pub use crate::engine::Input;
-pub use open::{Case, OpenError, open, open_file, read};
+pub use digest::event_seed;
+pub use open::{Case, OpenError, open, open_file, read, scene_at, wound_scene};
 pub use save::{SaveError, require_form, save};
 pub use session::Session;
 pub use stages::{Plant, Planting};

@@ -8,7 +8,7 @@ use crate::assets::{self, AssetError, CacheOptions, Loaded, SceneSettings};
 use crate::canvas::{RenderError, Renderer, Studio};
 use crate::engine::wound::{self, Wound};
 use crate::engine::{Control, Engine, Event};
-use crate::recording::{self, AnyRecording, ReadError, Recording, Script, ScriptError};
+use crate::recording::{self, AnyRecording, ReadError, Recording, SceneRef, Script, ScriptError};
 
 /// Why a recording cannot be replayed.
 #[derive(Debug)]
@@ -108,6 +108,21 @@ pub fn read(path: &Path) -> Result<AnyRecording, OpenError> {
     recording::read(&bytes).map_err(|error| OpenError::Recording { path: path.into(), error })
 }
 
+/// The scene that a person means by a path where a recording could be meant as well: one that is made by code, a mesh, or a scene's description.
+/// None for what may be a recording.
+pub fn scene_at(path: &Path) -> Result<Option<SceneRef>, OpenError> {
+    let scene = path.to_str().map(SceneRef::typed).unwrap_or_else(|| SceneRef::Mesh(path.into()));
+    Ok(match scene {
+        _ if assets::is_mesh(path) => Some(SceneRef::Mesh(path.into())),
+        SceneRef::Builtin(_) if !assets::is_file(path) => Some(scene),
+        SceneRef::File(_) => {
+            let bytes = assets::read_file(path).map_err(OpenError::Asset)?;
+            assets::scene::is_description(&bytes).then_some(scene)
+        }
+        _ => None,
+    })
+}
+
 /// Opens a recording or a script, with the scene that it names.
 pub fn open_file(
     path: &Path,
@@ -156,7 +171,8 @@ fn renderer(scene: &Loaded, studio: &dyn Studio) -> Result<Box<dyn Renderer>, Op
     studio.open(maps, &scene.mesh).map_err(OpenError::Render)
 }
 
-fn wound_scene(settings: &SceneSettings, map_size: [u32; 2], viewport: [u32; 2]) -> wound::Scene {
+/// What a scene's settings are to the wound engine, with the size of its colour map and of the view.
+pub fn wound_scene(settings: &SceneSettings, map_size: [u32; 2], viewport: [u32; 2]) -> wound::Scene {
     let SceneSettings { unit_cm, snap_px, fov_y, target, azimuth, zenith, distance, look } = settings.clone();
     wound::Scene { viewport, unit_cm, snap_px, fov_y, target, azimuth, zenith, distance, look, map_size }
 }
@@ -239,6 +255,28 @@ mod tests {
                 assert_eq!(replay.state(), states[target], "event {target}, {budget_bytes} bytes");
             }
         }
+    }
+
+    #[test]
+    fn a_scene_is_told_from_a_recording() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str, content: &str| {
+            let path = folder.path().join(name);
+            assets::write_file(&path, content.as_bytes()).expect("written");
+            path
+        };
+        let scene = |path: &Path| scene_at(path).expect("it can be read");
+        for path in [at("cut.json", SCRIPT), at("a.lancet", "x"), at("odd.json", "{"), at("list.json", "[1]")]
+        {
+            assert_eq!(scene(&path), None, "{}", path.display());
+        }
+        let described = at("scene.json", r#"{ "mesh": "builtin:grid", "unit_cm": 2 }"#);
+        assert_eq!(scene(&described), Some(SceneRef::File(described.clone())));
+        for mesh in ["head.obj", "HEAD.GLB", "x.ply", "x.gltf"] {
+            assert_eq!(scene(Path::new(mesh)), Some(SceneRef::Mesh(mesh.into())), "there or not");
+        }
+        assert_eq!(scene(Path::new("builtin:bust:3000")), Some(SceneRef::Builtin("bust:3000".into())));
+        assert!(scene_at(&folder.path().join("nowhere.json")).is_err());
     }
 
     #[test]

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 pub use delta::{Buffer, Difference, EventDelta, Scalar, StageDelta};
 pub use run::{Finding, RunReport, StateReport, Totals};
 pub use stop::Stop;
-pub use text::printable;
+pub use text::{printable, quoted};
 pub use trace::trace;
 
 /// Version of the JSON report.

@@ -61,12 +61,14 @@ pub(in crate::tui) struct Comparisons {
     pub(in crate::tui) begun: u64,
     /// What the first recording is to be compared with as soon as it is open.
     pub(in crate::tui) first: Option<With>,
+    /// Why there is no comparison, where the last one could not be made.
+    pub(in crate::tui) refused: Option<String>,
 }
 
 impl Comparisons {
     /// None yet, but one to begin with.
     pub(in crate::tui) fn first(with: Option<With>) -> Self {
-        Self { begun: 0, first: with }
+        Self { first: with, ..Self::default() }
     }
 }
 

@@ -1,4 +1,6 @@
 //! What is typed, clicked and pasted, as changes of the model.
+//!
+//! While something is being opened, keys wait (`ahead`).
 
 use crossterm::event::{Event, MouseButton, MouseEvent, MouseEventKind};
 use ratatui::layout::{Position, Rect};
@@ -9,13 +11,25 @@ use super::keys::Keys;
 use super::model::{Model, Pane};
 use super::theme::Theme;
 use super::view::Areas;
-use super::{panes, tabs, update, view};
+use super::{ahead, panes, tabs, update, view};
 
 /// Rows that the wheel scrolls by.
 const WHEEL: isize = 3;
 
 /// Takes an event of the terminal. Whether the screen is another.
 pub(in crate::tui) fn take(model: &mut Model, keys: &Keys, event: Event) -> bool {
+    // That something waits is shown, too.
+    ahead::keep(model, keys, event).is_none_or(|event| carry_out(model, keys, event))
+}
+
+/// Takes what was typed ahead of what is open by now.
+pub(in crate::tui) fn catch_up(model: &mut Model, keys: &Keys) {
+    while let Some(event) = model.ahead.next() {
+        carry_out(model, keys, event);
+    }
+}
+
+fn carry_out(model: &mut Model, keys: &Keys, event: Event) -> bool {
     let selected = model.selected.clone();
     let changed = dispatch(model, keys, event);
     update::reveal(model, &selected);

@@ -11,6 +11,7 @@
 //! It shows any engine by its reports, and knows none by name.
 
 mod action;
+mod ahead;
 pub mod colour;
 mod command;
 mod compare;

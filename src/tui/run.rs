@@ -203,6 +203,7 @@ impl App {
             }
             News::Told(told) => {
                 update::told(&mut self.model, told);
+                events::catch_up(&mut self.model, &self.keys);
                 self.changed = true;
             }
         }

@@ -47,13 +47,20 @@ impl Stage {
         stage
     }
 
-    /// Types keys, with blanks between them, and waits until all is done. An error names the one that is none.
+    /// Types keys, with blanks between them, and waits after each until all is done. An error names the one that is none; then none is typed.
     pub fn press(&mut self, keys: &str) -> Result<(), String> {
-        for word in keys.split_whitespace() {
-            let key: Key = word.parse().map_err(|error| format!("{error}"))?;
-            self.take(Event::Key(KeyEvent::new(key.code(), key.modifiers())));
-        }
+        Self::keys(keys)?.into_iter().for_each(|key| self.press_key(key));
         Ok(())
+    }
+
+    /// The keys that a text names, with blanks between them.
+    pub fn keys(text: &str) -> Result<Vec<Key>, String> {
+        text.split_whitespace().map(|word| word.parse().map_err(|error| format!("{error}"))).collect()
+    }
+
+    /// Types a key, and waits until all is done.
+    pub fn press_key(&mut self, key: Key) {
+        self.take(Event::Key(KeyEvent::new(key.code(), key.modifiers())));
     }
 
     /// Takes an event of a terminal, and waits until all is done.
@@ -67,6 +74,12 @@ impl Stage {
         self.model.done
     }
 
+    /// Leaves at once.
+    #[cfg(test)]
+    pub(in crate::tui) fn leave(self) -> Result<(), String> {
+        self.desk.leave()
+    }
+
     /// What the screen knows.
     #[cfg(test)]
     pub(in crate::tui) fn model(&mut self) -> &mut Model {
@@ -77,6 +90,17 @@ impl Stage {
     pub fn failure(&self) -> Option<&str> {
         let message = self.model.message.as_ref().filter(|message| message.wrong);
         message.filter(|_| self.model.opened.is_none()).map(|message| message.text.as_str())
+    }
+
+    /// What the last comparison came to: whether all is the same; an error says why there is none.
+    pub fn compared(&self) -> Option<Result<bool, &str>> {
+        let refused = self.model.comparisons.refused.as_deref().map(Err);
+        refused.or_else(|| self.model.differences.as_ref().map(|found| Ok(found.verified)))
+    }
+
+    /// Whether an invariant broke on the way.
+    pub fn has_finding(&self) -> bool {
+        self.model.finding.is_some()
     }
 
     /// What was copied, in order.
@@ -122,7 +146,10 @@ impl Stage {
                 self.desk.handle(ask, &mut heard);
                 let steady = self.steady;
                 let told = heard.0.into_iter().map(|told| if steady { steadied(told) } else { told });
-                told.for_each(|told| update::told(&mut self.model, told));
+                for told in told {
+                    update::told(&mut self.model, told);
+                    events::catch_up(&mut self.model, &self.keys);
+                }
             }
             Effect::Copy(text) => self.copied.push(text),
             Effect::Suspend | Effect::Redraw => {}

@@ -71,7 +71,9 @@ fn going(model: &Model) -> String {
         0 => format!("  {what}…"),
         of => format!("  {what} {done}/{of}"),
     });
-    [unsaved, playing, busy].into_iter().flatten().collect()
+    let ahead = Some(model.ahead.len()).filter(|count| *count > 0);
+    let ahead = ahead.map(|count| format!("  typed ahead: {count}"));
+    [unsaved, playing, busy, ahead].into_iter().flatten().collect()
 }
 
 /// What is selected.

@@ -11,12 +11,21 @@ const ELLIPSIS: &str = "…";
 
 /// A text as a single line: control characters and line ends spelled out.
 pub fn line(text: &str) -> String {
-    printable(text).replace('\n', "\\n")
+    let text = printable(text);
+    if text.contains('\n') { text.replace('\n', "\\n") } else { text }
 }
 
 /// How many cells a text takes.
 pub fn width(text: &str) -> usize {
-    cells(&Span::raw(text)).iter().map(|(_, width)| width).sum()
+    match is_plain(text) {
+        true => text.len(),
+        false => cells(&Span::raw(text)).iter().map(|(_, width)| width).sum(),
+    }
+}
+
+/// Whether every byte is a cell of its own.
+fn is_plain(text: &str) -> bool {
+    text.bytes().all(|byte| (b' '..=b'~').contains(&byte))
 }
 
 /// A line in at most this many cells; of what is longer, the beginning.
@@ -83,11 +92,11 @@ fn cells<'a>(span: &'a Span<'a>) -> Vec<(&'a str, usize)> {
 /// `share` says how many of the cells beside the ellipsis are for the beginning and for the end.
 fn shorten(text: &str, width: usize, share: impl FnOnce(usize) -> (usize, usize)) -> String {
     let text = line(text);
+    if self::width(&text) <= width {
+        return text;
+    }
     let span = Span::raw(text.as_str());
     let cells = cells(&span);
-    if cells.iter().map(|(_, width)| width).sum::<usize>() <= width {
-        return text.clone();
-    }
     let Some(room) = width.checked_sub(1) else { return String::new() };
     let (start, end) = share(room);
     let head = count_within(cells.iter(), start);

@@ -47,8 +47,8 @@ pub use diff::{Diff, Side, diff};
 pub use gauge::{GaugeReport, gauge};
 pub use html::html;
 pub use image::{
-    Defect, Distance, Gate, GatesError, GatesFile, ImageReport, ImageVerdict, Known, Metric, Planted, Proof,
-    difference,
+    Defect, Distance, Gate, GatesError, GatesFile, ImageReport, ImageVerdict, Known, Metric, Planted, Probe,
+    Proof, difference,
 };
 pub use junit::junit;
 pub use merge::{MergeError, merge};

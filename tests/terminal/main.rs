@@ -69,6 +69,23 @@ fn it_starts_steps_and_follows_the_terminals_size() {
 }
 
 #[test]
+fn what_is_typed_while_a_recording_is_opened_is_not_lost() {
+    let folder = folder();
+    let mut program = Program::start(folder.path(), &["square.json"], [120, 40]);
+    // Typed before even the first frame is there.
+    program.press("lll\x0e");
+    let screen = program.expect("record on a scene");
+    assert!(screen.contains("3/5"), "{screen}");
+    // The bust takes its time.
+    program.press("builtin:bust\ree");
+    program.until("a recording that is begun on the bust", |screen| {
+        ["lancet new recording", "merge"].iter().all(|text| screen.contents().contains(text))
+    });
+    program.press(CTRL_C);
+    program.left();
+}
+
+#[test]
 fn two_hundred_cuts_are_walked_key_by_key() {
     let folder = folder();
     let cuts = concat!(env!("CARGO_MANIFEST_DIR"), "/recordings/wound/two-hundred-cuts.lancet");

@@ -23,6 +23,7 @@ use std::fmt;
 pub(super) use maps::{MapKind, paint};
 
 use crate::mesh::IndexedMesh;
+use crate::report::quoted;
 
 /// A built-in scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,9 +64,10 @@ pub enum BuiltinError {
 impl fmt::Display for BuiltinError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Unknown(name) => write!(f, "there is no built-in scene {name:?}")?,
+            Self::Unknown(name) => write!(f, "there is no built-in scene {}", quoted(name))?,
             Self::Faces { name, given: Some(given), bounds: (least, most) } => {
-                write!(f, "{name}:N takes a whole number of faces from {least} to {most}, not {given:?}")?;
+                let given = quoted(given);
+                write!(f, "{name}:N takes a whole number of faces from {least} to {most}, not {given}")?;
             }
             Self::Faces { name, given: None, bounds: (least, most) } => {
                 write!(f, "{name}:N needs a whole number of faces from {least} to {most}")?;

@@ -7,6 +7,7 @@ use base64::engine::general_purpose::STANDARD;
 use gltf::buffer::Source;
 
 use crate::assets::error::{Fault, FaultKind};
+use crate::report::quoted;
 
 /// A buffer: its bytes, or the file that has them, relative to the document.
 #[derive(Debug)]
@@ -35,12 +36,12 @@ fn from_uri(uri: &str) -> Result<Uri, Fault> {
         return STANDARD.decode(encoded).map(Uri::Data).map_err(|_| invalid());
     }
     if uri.contains("://") {
-        let detail = format!("the buffer {uri:?} is not a file; nothing is fetched");
+        let detail = format!("the buffer {} is not a file; nothing is fetched", quoted(uri));
         return Err(Fault::whole(FaultKind::Unsupported, detail));
     }
     let name = String::from_utf8(percent_decoded(uri));
     name.map(|n| Uri::File(n.into()))
-        .map_err(|_| Fault::whole(FaultKind::Syntax, format!("{uri:?} is not text")))
+        .map_err(|_| Fault::whole(FaultKind::Syntax, format!("{} is not text", quoted(uri))))
 }
 
 /// `%20` and the like as bytes; a `%` that starts nothing stays.

@@ -18,10 +18,15 @@ use super::error::{Fault, FaultKind};
 use super::soup::{NO_UV, Polygons, Soup, Unit};
 pub(super) use buffers::{Uri, buffer_uris};
 
+/// Faces and nodes that a byte of a file and its buffers may come to. A byte is a face at most (of a strip), so a mesh may be shown that often; more is
+/// not what a person meant, and without a bound a small file could fill any memory.
+const MOST_A_BYTE: usize = 64;
+
 /// Reads a glTF or GLB file, its buffers given by index (that of a GLB is in the file itself).
 pub(super) fn read(bytes: &[u8], buffers: &[Vec<u8>]) -> Result<Soup, Fault> {
     let document = parse(bytes)?.document;
-    let mut collector = Collector { buffers, ..Collector::new() };
+    let size = bytes.len() + buffers.iter().map(Vec::len).sum::<usize>();
+    let mut collector = Collector { buffers, most: size.saturating_mul(MOST_A_BYTE), ..Collector::new() };
     collector.scene(&document)?;
     let Collector { positions, uvs, polygons, passed_over, .. } = collector;
     let mut soup = Soup::new(positions, uvs, &polygons, Unit::Face)?;
@@ -54,6 +59,8 @@ fn check_positions(root: &gltf::json::Root) -> Result<(), Fault> {
 
 struct Collector<'a> {
     buffers: &'a [Vec<u8>],
+    /// Faces, and nodes, that the file may come to.
+    most: usize,
     positions: Vec<DVec3>,
     uvs: Vec<Vec2>,
     polygons: Polygons,
@@ -64,6 +71,7 @@ impl Collector<'_> {
     fn new() -> Self {
         Self {
             buffers: &[],
+            most: 0,
             positions: Vec::new(),
             uvs: Vec::new(),
             polygons: Polygons::default(),
@@ -104,6 +112,7 @@ impl Collector<'_> {
             self.passed_over += 1;
             return Ok(());
         };
+        self.admit(positions.count().saturating_add(self.positions.len()))?;
         let points = accessor::reals::<3>(&positions, self.buffers)?;
         let first = u32::try_from(self.positions.len()).unwrap_or(u32::MAX);
         let place = |p: &[f32; 3]| placed.transform_point3(DVec3::from(p.map(f64::from))) + DVec3::ZERO;
@@ -118,11 +127,24 @@ impl Collector<'_> {
                 format!("index {bad} (from 0) names nothing, the primitive has {} nodes", points.len());
             return Err(Fault::whole(FaultKind::Index, detail));
         }
+        self.admit(indices.len().saturating_add(self.polygons.ends.len()))?;
         let mirrored = placed.determinant() < 0.0;
         triangles(mode, &indices, |[a, b, c]| {
             self.triangle(first, first_uv, if mirrored { [a, c, b] } else { [a, b, c] });
         });
         Ok(())
+    }
+
+    /// Refuses more than the file's size justifies.
+    fn admit(&self, count: usize) -> Result<(), Fault> {
+        if count <= self.most {
+            return Ok(());
+        }
+        let detail = format!(
+            "its meshes are shown so often that they come to {count} nodes or corners, more than {}",
+            self.most
+        );
+        Err(Fault::whole(FaultKind::TooLarge, detail))
     }
 
     /// Appends set 0; says where it starts.

@@ -177,3 +177,13 @@ proptest! {
         let _ = buffer_uris(&bytes);
     }
 }
+
+#[test]
+fn a_mesh_that_is_shown_more_often_than_the_file_justifies_is_refused() {
+    let parsed = parse(document().to_string().as_bytes()).expect("valid").document;
+    let buffers = [buffer()];
+    let show = |most: usize| Collector { buffers: &buffers, most, ..Collector::new() }.scene(&parsed);
+    // Three squares of four nodes.
+    assert_eq!(show(12), Ok(()));
+    assert_eq!(show(11).map_err(|fault| fault.kind), Err(FaultKind::TooLarge));
+}

@@ -3,6 +3,7 @@
 use fast_float2::FastFloat;
 
 use crate::assets::error::{Fault, FaultKind};
+use crate::report::quoted;
 
 /// Reads words, and knows the line. Blanks never cross the end of a line, but for one continued by `\`.
 pub(super) struct Cursor<'a> {
@@ -168,6 +169,7 @@ impl<'a> Cursor<'a> {
     fn fault(&self, kind: FaultKind, what: &str) -> Fault {
         let rest = &self.bytes[self.at..];
         let length = rest.iter().take(40).take_while(|b| !b.is_ascii_whitespace()).count();
-        Fault::line(self.line, kind, format!("{:?} {what}", String::from_utf8_lossy(&rest[..length])))
+        let word = quoted(String::from_utf8_lossy(&rest[..length]));
+        Fault::line(self.line, kind, format!("{word} {what}"))
     }
 }

@@ -15,6 +15,7 @@ use glam::{DVec3, Vec2};
 use super::Note;
 use super::error::{Fault, FaultKind};
 use super::soup::{NO_UV, Polygons, Soup, Unit};
+use crate::report::quoted;
 use cursor::Cursor;
 
 /// Statements that say nothing about nodes, texture coordinates or faces.
@@ -157,7 +158,7 @@ impl<'a> Reader<'a> {
             Note::new(
                 "statement-unknown",
                 0,
-                format!("statements passed over, the first at line {line}: {word:?}"),
+                format!("statements passed over, the first at line {line}: {}", quoted(word)),
             )
         });
         note.count += 1;

@@ -2,6 +2,7 @@
 
 use super::header::{Element, Encoding, Type};
 use crate::assets::error::{Fault, FaultKind};
+use crate::report::quoted;
 
 /// The values of one row.
 #[derive(Debug, Default)]
@@ -140,7 +141,7 @@ impl<'a> Body<'a> {
             _ => {
                 let length = rest.iter().take(40).take_while(|b| !b.is_ascii_whitespace()).count();
                 let word = String::from_utf8_lossy(&rest[..length]);
-                Err(Fault::line(self.line, FaultKind::Number, format!("{word:?} is not a number")))
+                Err(Fault::line(self.line, FaultKind::Number, format!("{} is not a number", quoted(word))))
             }
         }
     }

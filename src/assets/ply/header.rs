@@ -1,6 +1,7 @@
 //! The header of a PLY file: which elements there are, and what a row of each is made of.
 
 use crate::assets::error::{Fault, FaultKind};
+use crate::report::quoted;
 
 /// A header longer than this is none.
 const MOST_HEADER_BYTES: usize = 1 << 16;
@@ -109,7 +110,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Header, usize, u64), Fault> {
             ["format", name, _] => encoding = Some(lines.encoding(name)?),
             ["element", name, count] => elements.push(lines.element(name, count)?),
             ["property", ref words @ ..] => lines.property(&mut elements, words)?,
-            _ => return Err(lines.fault(&format!("{line:?} is not part of a header"))),
+            _ => return Err(lines.fault(&format!("{} is not part of a header", quoted(line)))),
         }
     }
     let encoding = encoding.ok_or_else(|| lines.fault("the header names no format"))?;
@@ -143,17 +144,18 @@ impl<'a> Lines<'a> {
             "ascii" => Ok(Encoding::Ascii),
             "binary_little_endian" => Ok(Encoding::Little),
             "binary_big_endian" => Ok(Encoding::Big),
-            _ => Err(self.fault(&format!("there is no format {name:?}"))),
+            _ => Err(self.fault(&format!("there is no format {}", quoted(name)))),
         }
     }
 
     fn element(&self, name: &str, count: &str) -> Result<Element, Fault> {
-        let count = count.parse().map_err(|_| self.fault(&format!("{count:?} is not a count")))?;
+        let count = count.parse().map_err(|_| self.fault(&format!("{} is not a count", quoted(count))))?;
         Ok(Element { name: name.into(), count, properties: Vec::new() })
     }
 
     fn property(&self, elements: &mut [Element], words: &[&str]) -> Result<(), Fault> {
-        let of = |name: &str| Type::of(name).ok_or_else(|| self.fault(&format!("there is no type {name:?}")));
+        let none = |name: &str| self.fault(&format!("there is no type {}", quoted(name)));
+        let of = |name: &str| Type::of(name).ok_or_else(|| none(name));
         let property = match *words {
             ["list", length, item, name] => {
                 Property { name: name.into(), length: Some(self.length(of(length)?)?), of: of(item)? }

@@ -25,10 +25,21 @@ mod tests;
 use std::f64::consts::FRAC_PI_2;
 
 pub(super) use identity::MapHash;
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use super::error::{Fault, FaultKind};
 use crate::canvas::look::{Ambient, Background, Look, Scattering, Shadows, Skin, Spotlight, Switches, Wound};
+
+/// Whether some JSON means to be a scene rather than a script, which has a scene and no mesh beside it.
+pub fn is_description(bytes: &[u8]) -> bool {
+    #[derive(Deserialize)]
+    struct Fields {
+        mesh: Option<IgnoredAny>,
+        scene: Option<IgnoredAny>,
+    }
+    serde_json::from_slice(bytes).is_ok_and(|Fields { mesh, scene }| mesh.is_some() && scene.is_none())
+}
 
 /// A scene file as it is written.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -153,6 +164,19 @@ impl Default for SceneSettings {
 }
 
 impl SceneFile {
+    /// Reads a scene file; every value in it is within its range.
+    pub fn read(bytes: &[u8]) -> Result<Self, Fault> {
+        let file: Self = serde_json::from_slice(bytes)
+            .map_err(|error| Fault::line(error.line() as u64, FaultKind::Syntax, error.to_string()))?;
+        file.settings().validate()?;
+        Ok(file)
+    }
+
+    /// What it says besides its mesh and maps.
+    pub fn settings(&self) -> SceneSettings {
+        self.clone().into_parts().1
+    }
+
     /// Its mesh, its settings and its maps.
     fn into_parts(self) -> (String, SceneSettings, MapFiles) {
         let Self { mesh, unit_cm, snap_px, fov_y, target, azimuth, zenith, distance, maps, .. } = self;
@@ -164,9 +188,5 @@ impl SceneFile {
 
 /// Reads a scene file: its mesh as written, its settings, and its maps as written.
 pub(super) fn parse(bytes: &[u8]) -> Result<(String, SceneSettings, MapFiles), Fault> {
-    let file: SceneFile = serde_json::from_slice(bytes)
-        .map_err(|error| Fault::line(error.line() as u64, FaultKind::Syntax, error.to_string()))?;
-    let (mesh, settings, maps) = file.into_parts();
-    settings.validate()?;
-    Ok((mesh, settings, maps))
+    SceneFile::read(bytes).map(SceneFile::into_parts)
 }

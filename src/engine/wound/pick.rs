@@ -16,7 +16,7 @@ use super::event::Pick;
 use super::{State, camera::Camera};
 use crate::geometry::bvh::{Bvh, Ray};
 use crate::geometry::double;
-use crate::geometry::predicates::{Sign, nearer, orient3d};
+use crate::geometry::predicates::{Sign, nearer, orient3d, parameter};
 use crate::mesh::{FaceId, Mesh, NodeId};
 use crate::report::Rejection;
 
@@ -117,8 +117,8 @@ fn snap_target(mesh: &Mesh, camera: &Camera, face: FaceId, at: [f64; 2], snap_px
 pub struct Hit {
     /// The face; of several at the same place the one with the lowest id.
     pub face: FaceId,
-    /// Parameter along the ray, in lengths from the eye to the second point; rounded.
-    pub t: f64,
+    /// Bounds of the parameter along the ray, in lengths from the eye to the second point.
+    reach: [f64; 2],
     /// The signs of orient3d(eye, through, nᵢ, nᵢ₊₁).
     signs: [Sign; 3],
 }
@@ -130,8 +130,8 @@ pub fn cast(mesh: &Mesh, bvh: &Bvh, eye: DVec3, through: DVec3) -> Option<Hit> {
         if let Some(hit) = meet(mesh, FaceId(item), eye, through) {
             best = Some(best.map_or(hit, |b| first(mesh, eye, through, b, hit)));
         }
-        // Far enough beyond the rounding of t that nothing equally near is left out.
-        best.map_or(f64::INFINITY, |b| b.t * (1.0 + 1e-9) + 1e-12)
+        // What is equally near enters its box before that, whatever rounding did.
+        best.map_or(f64::INFINITY, |b| b.reach[1])
     });
     best
 }
@@ -145,9 +145,7 @@ fn meet(mesh: &Mesh, face: FaceId, eye: DVec3, through: DVec3) -> Option<Hit> {
     if orient3d(t[0], t[1], t[2], eye) != fall.reverse() {
         return None;
     }
-    let normal = (t[1] - t[0]).cross(t[2] - t[0]);
-    let parameter = normal.dot(t[0] - eye) / normal.dot(through - eye);
-    Some(Hit { face, t: if parameter.is_finite() { parameter.max(0.0) } else { 0.0 }, signs })
+    Some(Hit { face, reach: parameter(eye, through, t), signs })
 }
 
 /// The three signs of a line and a triangle's sides, if the line meets the triangle and is not in its plane.
@@ -159,9 +157,10 @@ pub fn crossing_signs(eye: DVec3, through: DVec3, t: [DVec3; 3]) -> Option<[Sign
 
 /// The nearer of two hits; the lower face id where they are equal.
 fn first(mesh: &Mesh, eye: DVec3, through: DVec3, a: Hit, b: Hit) -> Hit {
-    let apart = (a.t - b.t).abs() > 1e-9 * a.t.max(b.t) + 1e-12;
-    let order = if apart {
-        a.t.total_cmp(&b.t)
+    let order = if a.reach[1] < b.reach[0] {
+        Ordering::Less
+    } else if b.reach[1] < a.reach[0] {
+        Ordering::Greater
     } else {
         nearer(eye, through, mesh.triangle(a.face), mesh.triangle(b.face)).then(a.face.cmp(&b.face))
     };

@@ -259,7 +259,9 @@ impl<'a> Front<'a> {
         let sides = sides_to_line(&at, self.length);
         let distance = triangle_to_line(&at, sides);
         let comes_back = distance < before.sides[side];
-        if comes_back && (torn || self.is_far(corners[2], at[third])) || self.is_lost(corners[2], at[third]) {
+        // Corners of the links' own faces are looked at here, too: a line that turns back on itself lays them beside it.
+        let lost = [first, second, third].into_iter().zip(corners).any(|(i, p)| self.is_lost(p, at[i]));
+        if comes_back && (torn || self.is_far(corners[2], at[third])) || lost {
             self.refused.insert(face);
             return None;
         }

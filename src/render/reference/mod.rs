@@ -12,7 +12,9 @@
 //! | `surface`, `sample` | what is at a pixel, and what it is made of |
 //! | `lighting` | the light that leaves it |
 //! | `skin`, `scatter`, `compose` | the passes over the picture, and `layers`, what they hand on |
+//! | [`alone`] | single passes, to be measured |
 
+pub mod alone;
 mod clip;
 mod compose;
 mod frames;

@@ -15,6 +15,7 @@ pub(in crate::tui) use timing::{Spread, Timing};
 
 use crate::canvas::frame::Orbit;
 use crate::report::{EventReport, Finding, StateReport, Stop};
+use crate::tui::ahead::Ahead;
 use crate::tui::compare::{Comparing, Comparisons, Differences};
 use crate::tui::list::List;
 use crate::tui::picture::PictureState;
@@ -166,6 +167,8 @@ pub(in crate::tui) struct Model {
     pub(in crate::tui) asked: u64,
     /// The second of the two.
     pub(in crate::tui) answered: u64,
+    /// What was typed while something is being opened.
+    pub(in crate::tui) ahead: Ahead,
     /// What is to be done outside.
     pub(in crate::tui) effects: Vec<Effect>,
     /// Whether it is over once the recording is saved.
@@ -227,6 +230,9 @@ impl Model {
     /// Asks the worker for something.
     pub(in crate::tui) fn ask(&mut self, ask: Ask) {
         self.asked += u64::from(ask.is_urgent());
+        if ask.opens() {
+            self.ahead.begin(self.asked);
+        }
         self.effects.push(Effect::Ask(ask));
     }
 

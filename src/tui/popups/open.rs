@@ -6,7 +6,7 @@
 //! │ bust-4711.lancet              not saved, 12 event│
 //! │ recordings/wound/bust.lancet                     │
 //! │ builtin:bust   a head on its neck     a new one  │
-//! │ bus                                    this path │
+//! │ bus                                    this path │  or a new one, where a scene was typed
 //! └ enter open · tab complete a path · esc close ────┘
 //! ```
 
@@ -16,7 +16,8 @@ use std::path::{Path, PathBuf};
 use ratatui::text::Line;
 
 use super::menu::{Pen, Row, blanks, marked};
-use crate::assets::builtin;
+use crate::assets::{self, builtin};
+use crate::recording::SceneRef;
 use crate::report::printable;
 use crate::tui::fuzzy::{self, Found};
 use crate::tui::model::Model;
@@ -73,7 +74,14 @@ pub(in crate::tui) fn entries(model: &Model, files: &[PathBuf], typed: &str) -> 
 /// Whether a text looks like a path rather than like some letters of a name.
 fn is_path(typed: &str) -> bool {
     let end = Path::new(typed).extension().and_then(|end| end.to_str());
-    typed.starts_with(['/', '.', '~']) || matches!(end, Some("lancet" | "json"))
+    typed.starts_with(['/', '.', '~'])
+        || matches!(end, Some("lancet" | "json"))
+        || assets::is_mesh(Path::new(typed))
+}
+
+/// Whether what was typed is a scene by its looks; a scene's description looks like a script.
+fn is_scene(typed: &str) -> bool {
+    SceneRef::parse_builtin(typed).is_some() || assets::is_mesh(Path::new(typed))
 }
 
 pub(super) fn rows(pen: Pen<'_>, files: &[PathBuf]) -> Vec<Row> {
@@ -90,6 +98,9 @@ fn row(entry: &Entry, found: &Found, pen: Pen<'_>) -> Row {
             left.push(blanks(&name, SCENES));
             left.extend(marked(about, &[], Role::Faint, pen.theme));
             ("a new one".into(), Role::Faint, format!("begin a new recording on {name}: {about}"))
+        }
+        Entry::Typed(typed) if is_scene(typed) => {
+            ("a new one".into(), Role::Faint, format!("begin a new recording on {name}"))
         }
         Entry::Typed(_) => ("this path".into(), Role::Faint, format!("open the file {name}")),
     };

@@ -115,6 +115,38 @@ fn no_screen_is_too_small() {
 }
 
 #[test]
+fn every_question_has_a_border_with_what_is_asked_in_it() {
+    use Question as Q;
+    let all = [
+        Q::GoTo,
+        Q::Search,
+        Q::Stop,
+        Q::CompareWith,
+        Q::Checkpoint,
+        Q::Event,
+        Q::Save,
+        Q::SavePicture,
+        Q::Scene,
+    ];
+    for question in all {
+        let mut model = Model { size: [120, 40], ..Model::default() };
+        popup::ask(&mut model, question);
+        let Some(Popup::Prompt(prompt)) = &mut model.popup else { panic!("no question") };
+        prompt.choices.clear();
+        let [title, hints] = prompt.words();
+        let (area, screen) =
+            (model.popup.as_ref().map(|popup| popup.area(&model)).unwrap_or_default(), drawn(&model));
+        let row = |y: u16| (area.left()..area.right()).map(|x| screen[(x, y)].symbol()).collect::<String>();
+        let [top, bottom] = [row(area.top()), row(area.bottom() - 1)];
+        assert!(top.starts_with(&format!("┌ {title} ─")) && top.ends_with('┐'), "{question:?}: {top}");
+        assert!(
+            bottom.starts_with(&format!("└ {hints} ─")) && bottom.ends_with('┘'),
+            "{question:?}: {bottom}"
+        );
+    }
+}
+
+#[test]
 fn on_a_small_screen_a_popup_still_shows_what_it_is_for() {
     let expected = [
         ("help", "Step one event on"),

@@ -1,7 +1,8 @@
 //! Drafts: recordings that are not saved, kept in the user's folder so that no crash and no closed terminal loses them.
 //!
 //! A draft is a recording like any other, `NAME-PROCESS.lancet`, written whole after every event. Two programs never write the same one. Who takes a
-//! draft up again writes one of his own, and only then removes it: whoever may still be writing to it writes it again.
+//! draft up again gives it a name of his own first, which of several programs that want it exactly one can do. Whoever was still writing to it
+//! finds it gone, and writes it again with the next event, or when he leaves.
 
 use std::path::{Path, PathBuf};
 
@@ -24,30 +25,30 @@ pub(in crate::tui) struct Draft {
     pub(in crate::tui) content: Result<(String, usize), String>,
 }
 
-/// The file of the draft that is being written, and the one that it takes the place of.
+/// The file of the draft that is being written. No other program writes to it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(in crate::tui) struct Slot {
-    own: Option<PathBuf>,
-    taken_up: Option<PathBuf>,
-}
+pub(in crate::tui) struct Slot(Option<PathBuf>);
 
 impl Slot {
-    /// The slot of a draft that is taken up again.
-    pub(in crate::tui) fn taking_up(path: &Path) -> Self {
-        Self { own: None, taken_up: Some(path.to_owned()) }
+    /// Its file, if there is one yet.
+    pub(in crate::tui) fn path(&self) -> Option<&Path> {
+        self.0.as_deref()
     }
 
     /// Removes what is in it: it is saved elsewhere, or there is nothing in it.
     pub(in crate::tui) fn clear(&mut self) -> Result<(), String> {
-        for file in [self.taken_up.take(), self.own.take()].into_iter().flatten() {
-            assets::remove_file(&file).map_err(|error| error.to_string())?;
-        }
-        Ok(())
+        let file = self.0.take();
+        file.map_or(Ok(()), |file| assets::remove_file(&file)).map_err(|error| error.to_string())
+    }
+
+    /// Whether another program has taken the draft up, so that it is no longer where it was written.
+    pub(in crate::tui) fn is_taken(&self) -> bool {
+        self.path().is_some_and(|path| !assets::is_file(path))
     }
 
     /// Whether a file is what is written here.
     fn is(&self, path: &Path) -> bool {
-        self.own.as_deref() == Some(path)
+        self.path() == Some(path)
     }
 }
 
@@ -66,14 +67,24 @@ impl Drafts {
     ) -> Result<(), String> {
         let Some(drafts) = &self.folder else { return Ok(()) };
         let not_kept = |error: &dyn std::fmt::Display| format!("not kept as a draft: {error}");
-        if slot.own.is_none() {
+        if slot.path().is_none() {
             let drafts = assets::real_folder(drafts).map_err(|error| not_kept(&error))?;
-            slot.own = Some(free(&drafts, &name(recording.scene())));
+            slot.0 = Some(free(&drafts, &name(recording.scene())));
         }
-        if let Some(own) = &slot.own {
-            replay::save(recording, folder, own).map_err(|error| not_kept(&error))?;
+        let written = slot.path().map_or(Ok(()), |own| replay::save(recording, folder, own).map(drop));
+        written.map_err(|error| not_kept(&error))
+    }
+
+    /// Takes a draft up: from now on it is written here and nowhere else. An error says why not, such as that another program was quicker.
+    pub(in crate::tui) fn take_up(&self, draft: &Path) -> Result<Slot, String> {
+        let gone = || format!("{}: another program has taken this draft up, or saved it", draft.display());
+        if !assets::is_file(draft) {
+            return Err(gone());
         }
-        slot.taken_up.take().map_or(Ok(()), |old| assets::remove_file(&old)).map_err(|error| not_kept(&error))
+        let recording = replay::read(draft).map_err(|error| error.to_string())?;
+        let own = free(draft.parent().unwrap_or(Path::new("")), &name(recording.scene()));
+        let taken = assets::take_file(draft, &own).map_err(|error| format!("not taken up: {error}"))?;
+        taken.then_some(Slot(Some(own))).ok_or_else(gone)
     }
 
     /// All of them but the one that is being written, the newest first.

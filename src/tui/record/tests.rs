@@ -1,5 +1,6 @@
 use std::path::{Path, PathBuf};
 
+use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 use ratatui::layout::Position;
 use tempfile::TempDir;
 
@@ -164,6 +165,93 @@ fn a_draft_outlives_the_program_and_is_gone_on_with() {
     save(&mut stage, &folder.at("saved.lancet"));
     require_same(&mut stage, &folder.at("saved.lancet"));
     assert!(folder.drafts().is_empty() && !stage.model().kept.unsaved);
+}
+
+#[test]
+fn a_draft_is_taken_up_by_one_program_alone() {
+    let folder = Folder::new();
+    let mut stage = folder.stage(Some(&folder.script()));
+    press(&mut stage, "r enter right enter");
+    drop(stage);
+    let [mut first, mut second] = [(); 2].map(|()| folder.stage(None));
+    let path = folder.drafts().swap_remove(0);
+    for stage in [&mut first, &mut second] {
+        stage.model().popup = None;
+        stage.model().ask(Ask::Open(path.clone()));
+        stage.settle();
+    }
+    assert!(said(&mut second).contains("another program has taken this draft up"), "{}", said(&mut second));
+    assert!(
+        second.model().opened.is_none() && second.model().kept.drafts.iter().all(|draft| draft.path != path)
+    );
+    press(&mut first, "u");
+    let [draft] = &folder.drafts()[..] else { panic!("{:?}", folder.drafts()) };
+    assert_eq!(replay::read(draft).expect("it is whole").event_lines(), lines(&mut first));
+    assert_eq!(lines(&mut first).len(), 3);
+}
+
+#[test]
+fn what_is_still_being_recorded_is_kept_though_another_program_takes_its_draft_up() {
+    let folder = Folder::new();
+    let mut writer = folder.stage(Some(&folder.script()));
+    press(&mut writer, "r enter right enter");
+    let mut other = folder.stage(None);
+    let path = folder.drafts().swap_remove(0);
+    other.model().ask(Ask::Open(path));
+    other.settle();
+    press(&mut other, "backspace backspace");
+    assert!(folder.drafts().is_empty(), "the other one has thrown its own away");
+    // Whether he opens something else, records on, or leaves.
+    press(&mut writer, "u");
+    let [draft] = &folder.drafts()[..] else { panic!("{:?}", folder.drafts()) };
+    assert_eq!(replay::read(draft).expect("it is whole").event_lines(), lines(&mut writer));
+    for leaves in [false, true] {
+        folder.drafts().iter().for_each(|draft| assets::remove_file(draft).expect("removed"));
+        if leaves {
+            writer.leave().expect("it is kept");
+            break;
+        }
+        record::begin(writer.model(), "builtin:grid").expect("a scene");
+        writer.settle();
+        let [draft] = &folder.drafts()[..] else { panic!("{:?}", folder.drafts()) };
+        assert_eq!(replay::read(draft).expect("it is whole").event_count(), 3);
+        press(&mut writer, "enter");
+    }
+    let [draft] = &folder.drafts()[..] else { panic!("{:?}", folder.drafts()) };
+    assert_eq!(replay::read(draft).expect("it is whole").event_count(), 1);
+}
+
+#[test]
+fn a_draft_that_cannot_be_read_stays_where_it_is() {
+    let folder = Folder::new();
+    assets::write_file(&folder.at("drafts/bad-1.lancet"), b"nonsense").expect("written");
+    let mut stage = folder.stage(Some(&folder.at("drafts/bad-1.lancet")));
+    assert!(
+        stage.model().opened.is_none() && said(&mut stage).contains("bad-1.lancet"),
+        "{}",
+        said(&mut stage)
+    );
+    assert_eq!(folder.drafts(), [folder.at("drafts/bad-1.lancet")]);
+}
+
+#[test]
+fn a_scene_in_place_of_a_recording_begins_one_on_it() {
+    let folder = Folder::new();
+    let described = folder.at("scene/scene.json");
+    assets::write_file(&described, br#"{ "mesh": "square.obj" }"#).expect("written");
+    for scene in ["builtin:grid".into(), described, folder.at("scene/square.obj")] {
+        let mut stage = folder.stage(Some(&scene));
+        assert!(stage.model().recorder.is_some(), "{}: {}", scene.display(), said(&mut stage));
+        assert_eq!((lines(&mut stage).len(), stage.model().kept.unsaved), (0, false));
+        let mut stage = folder.stage(None);
+        for letter in scene.display().to_string().chars() {
+            stage.take(Event::Key(KeyEvent::new(KeyCode::Char(letter), KeyModifiers::NONE)));
+        }
+        press(&mut stage, "enter");
+        assert!(stage.model().recorder.is_some(), "{}: {}", scene.display(), said(&mut stage));
+    }
+    let mut stage = folder.stage(Some(Path::new("builtin:sphere:2")));
+    assert!(said(&mut stage).contains("from 20 to"), "{}", said(&mut stage));
 }
 
 #[test]

@@ -3,6 +3,7 @@
 mod keys;
 mod screens;
 pub(in crate::tui) mod suite;
+mod written;
 
 use std::path::Path;
 

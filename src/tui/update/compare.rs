@@ -1,6 +1,6 @@
 //! Comparing: what is compared with what, going from one divergence to the next, and taking what was found.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::assets;
 use crate::report::printable;
@@ -20,11 +20,7 @@ pub(super) fn act(model: &mut Model, action: Action) {
 
 /// Compares with another run, as it was typed. An error says why that cannot be.
 pub(in crate::tui) fn with(model: &mut Model, text: &str) -> Result<(), String> {
-    let path = PathBuf::from(text.trim());
-    if !assets::is_file(&path) {
-        return Err(format!("{}: there is no such file", printable(path.display())));
-    }
-    try_to_begin(model, With::Run(path), false)
+    try_to_begin(model, With::Run(text.trim().into()), false)
 }
 
 /// Compares the recording that is open, or says why that cannot be.
@@ -35,13 +31,25 @@ pub(in crate::tui) fn begin(model: &mut Model, with: With, then_go: bool) {
 }
 
 fn try_to_begin(model: &mut Model, with: With, then_go: bool) -> Result<(), String> {
-    let path = command::file(model)?.to_owned();
+    let path = comparable(model, &with);
+    model.comparisons.refused = path.clone().err();
+    let path = path?;
     model.comparisons.begun += 1;
     let job = Job { number: model.comparisons.begun, path, with };
     model.say(format!("comparing with {}", job.with.name()));
     model.comparing = Some(Comparing { job: job.clone(), done: 0, of: 0, then_go });
     model.ask(Ask::Compare(job));
     Ok(())
+}
+
+/// The file to be compared, if it and what it is compared with are there.
+fn comparable(model: &Model, with: &With) -> Result<PathBuf, String> {
+    match with {
+        With::Run(path) if !assets::is_file(path) => {
+            Err(format!("{}: there is no such file", printable(path.display())))
+        }
+        _ => command::file(model).map(Path::to_owned),
+    }
 }
 
 /// Ends the comparison that is being made. Whether there was one.
@@ -77,7 +85,11 @@ pub(super) fn advanced(model: &mut Model, number: u64, done: usize, of: usize) {
 pub(super) fn compared(model: &mut Model, number: u64, found: Result<Differences, String>) {
     let Some(comparing) = model.comparing.take_if(|comparing| comparing.job.number == number) else { return };
     match found {
-        Err(why) => model.complain(format!("not compared: {why}")),
+        Err(why) => {
+            let why = format!("not compared: {why}");
+            model.comparisons.refused = Some(why.clone());
+            model.complain(why);
+        }
         Ok(found) => {
             model.lists.differences.top();
             let verdict = compare::verdict(&found);

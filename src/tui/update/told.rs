@@ -59,6 +59,7 @@ pub(in crate::tui) fn told(model: &mut Model, told: Told) {
         Told::Broken(why) => broken(model, &why),
         Told::Failed(why) => {
             model.leaving = false;
+            model.ahead.fail(model.answered);
             model.complain(why);
         }
     }
@@ -74,6 +75,7 @@ fn played(model: &mut Model) {
 /// What ran stays on the screen; nothing further can be asked about it.
 fn broken(model: &mut Model, why: &str) {
     (model.standing, model.playing, model.wanted) = (None, None, None);
+    model.ahead.fail(model.answered);
     model.picture.forget();
     model.complain(format!("a bug of lancet's: panicked: {why}; open the recording again to go on"));
     record::broken(model);
@@ -100,6 +102,7 @@ fn open(model: &mut Model, opened: Opened) {
         effects: old.effects,
         asked: old.asked,
         answered: old.answered,
+        ahead: old.ahead,
         ..Model::default()
     };
     model.ask(Ask::Learn);
@@ -110,6 +113,7 @@ fn open(model: &mut Model, opened: Opened) {
 /// Where the worker got to by itself, or was stopped, is where the screen goes too, unless it has been sent on since.
 fn idle(model: &mut Model, urgent: bool) {
     model.answered += u64::from(urgent);
+    model.ahead.answer(model.answered);
     if model.answered < model.asked {
         return;
     }

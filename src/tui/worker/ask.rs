@@ -15,7 +15,7 @@ use crate::tui::shot::{Picture, Shot, Sight};
 /// Something to do.
 #[derive(Clone, Debug)]
 pub(in crate::tui) enum Ask {
-    /// Open a recording or a script.
+    /// Open a recording or a script, or begin a recording on a scene.
     Open(PathBuf),
     /// Go to a place, and run what has not run yet on the way.
     Go(Place),
@@ -99,6 +99,11 @@ pub(in crate::tui) enum Hand {
 }
 
 impl Ask {
+    /// Whether something else is shown afterwards.
+    pub(in crate::tui) fn opens(&self) -> bool {
+        matches!(self, Self::Open(_) | Self::Begin { .. })
+    }
+
     /// Whether it comes before pictures, and before what nobody waits for.
     pub(in crate::tui) fn is_urgent(&self) -> bool {
         let quiet = matches!(self, Self::Shoot(_) | Self::Learn);

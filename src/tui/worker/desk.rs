@@ -13,8 +13,9 @@ use super::compare;
 use super::recording::{self, Making};
 use crate::assets;
 use crate::canvas::Studio;
+use crate::recording::{SceneRef, VIEWPORT};
 use crate::render::{self, Choice};
-use crate::replay::{Case, Options, Replay};
+use crate::replay::{self, Case, Options, Replay};
 use crate::report::{EventReport, Stop};
 use crate::tui::compare::Job;
 use crate::tui::model::Place;
@@ -111,7 +112,7 @@ impl Desk {
                 line.tell(Told::Checked(Box::new(state)));
                 Ok(())
             }
-            Ask::Begin { scene, viewport } => self.begin(&scene, viewport, line),
+            Ask::Begin { scene, viewport } => self.begin(SceneRef::typed(&scene), viewport, line),
             Ask::GoOn(events) => self.opened()?.go_on(events, line),
             Ask::Record(hand) => {
                 let (open, drafts) = self.recorded()?;
@@ -143,7 +144,7 @@ impl Desk {
         Ok(())
     }
 
-    fn begin(&mut self, scene: &str, viewport: [u32; 2], line: &mut dyn Line) -> Result<(), String> {
+    fn begin(&mut self, scene: SceneRef, viewport: [u32; 2], line: &mut dyn Line) -> Result<(), String> {
         line.tell(Told::Progress { what: "opening", done: 0, of: 0 });
         let case = recording::begin(scene, viewport)?;
         self.show(case, None, line)?.tell_recording(true, line);
@@ -159,21 +160,41 @@ impl Desk {
         self.open.as_mut().ok_or_else(|| NOTHING.into())
     }
 
+    /// Opens a recording, goes on with a draft, or begins a recording on a scene.
     fn open_file(&mut self, path: &Path, line: &mut dyn Line) -> Result<(), String> {
         line.tell(Told::Progress { what: "opening", done: 0, of: 0 });
-        let case = Case::open(path).map_err(|error| error.to_string())?;
-        if !self.drafts.has(path) {
-            return self.show(case, Some(path), line).map(drop);
+        if self.drafts.has(path) {
+            let taken_up = self.take_up(path, line);
+            return taken_up.or_else(|why| self.list_drafts(line).and(Err(why)));
         }
-        // A draft is a recording that was not ended: it is gone on with.
+        if let Some(scene) = replay::scene_at(path).map_err(|error| error.to_string())? {
+            return self.begin(scene, VIEWPORT, line);
+        }
+        let case = Case::open(path).map_err(|error| error.to_string())?;
+        self.show(case, Some(path), line).map(drop)
+    }
+
+    /// A draft is a recording that was not ended: it is gone on with. Until it is this program's own it may still change.
+    fn take_up(&mut self, path: &Path, line: &mut dyn Line) -> Result<(), String> {
+        let slot = self.drafts.take_up(path)?;
+        let case = Case::open(slot.path().unwrap_or(path)).map_err(|error| error.to_string())?;
         let open = self.show(case, None, line)?;
-        open.making = Some(Making::taking_up(path));
+        open.making = Some(Making::taking_up(slot));
         open.tell_recording(true, line);
         open.go(Place::after(open.replay.len()), line)
     }
 
+    /// Sees to it that what is not saved is a draft, now that nothing more is done here.
+    pub(in crate::tui) fn leave(mut self) -> Result<(), String> {
+        let Self { open, drafts, .. } = &mut self;
+        open.as_mut().map_or(Ok(()), |open| open.keep(drafts))
+    }
+
     /// Puts a recording on the desk.
     fn show(&mut self, case: Case, path: Option<&Path>, line: &mut dyn Line) -> Result<&mut Open, String> {
+        if let Some(before) = &mut self.open {
+            before.keep(&self.drafts)?;
+        }
         let studio = match self.studio.take() {
             Some(studio) => studio,
             None => render::studio(self.choice).map_err(|error| error.to_string())?,

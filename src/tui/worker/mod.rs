@@ -55,6 +55,7 @@ impl Worker {
                     line.tell(Told::Idle { urgent });
                 }
             }
+            now.leave().unwrap_or_else(|why| line.tell(Told::Failed(why)));
         };
         thread::Builder::new().name(THREAD.into()).spawn(work)?;
         Ok(Self { asks, over, comparer })

@@ -25,16 +25,16 @@ pub(super) struct Making {
     filed: bool,
 }
 
-/// A recording of nothing yet, on a scene as a person types it.
-pub(super) fn begin(scene: &str, viewport: [u32; 2]) -> Result<Case, String> {
-    let recording = AnyRecording::begin(ENGINES[0], SceneRef::typed(scene), viewport)?;
+/// A recording of nothing yet.
+pub(super) fn begin(scene: SceneRef, viewport: [u32; 2]) -> Result<Case, String> {
+    let recording = AnyRecording::begin(ENGINES[0], scene, viewport)?;
     Case::new(recording, Path::new("")).map_err(|error| error.to_string())
 }
 
 impl Making {
     /// One that goes on with a draft.
-    pub(super) fn taking_up(draft: &Path) -> Self {
-        Self { slot: Slot::taking_up(draft), unsaved: true, ..Self::default() }
+    pub(super) fn taking_up(slot: Slot) -> Self {
+        Self { slot, unsaved: true, ..Self::default() }
     }
 
     /// Its draft.
@@ -105,6 +105,15 @@ impl Open {
                 (making.unsaved, making.filed, making.copied) = (false, true, self.replay.len());
                 making.slot.clear()
             }
+            None => Ok(()),
+        }
+    }
+
+    /// Writes the draft again, if it is gone while what is in it is in no other file.
+    pub(super) fn keep(&mut self, drafts: &Drafts) -> Result<(), String> {
+        let Open { making, case, .. } = self;
+        match making.as_mut().filter(|making| making.unsaved && making.slot.is_taken()) {
+            Some(making) => drafts.write(&mut making.slot, &case.recording, &case.folder),
             None => Ok(()),
         }
     }

@@ -148,7 +148,7 @@ pub(super) fn first_beyond(golden: &Image, found: &Image, skin: &Skin, gate: &Di
 }
 
 /// All measures but structure.
-fn sweep(golden: &Image, found: &Image, skin: &Skin) -> Measured {
+pub(super) fn sweep(golden: &Image, found: &Image, skin: &Skin) -> Measured {
     let mut sums = Sums::new(golden.size);
     let width = golden.size[0].max(1) as usize;
     for (at, (a, b)) in golden.texels.iter().zip(&found.texels).enumerate() {
@@ -237,7 +237,7 @@ pub(super) fn slope(image: &Image, [x, y]: [usize; 2]) -> [i64; 2] {
     ]
 }
 
-fn structure(golden: &Image, found: &Image) -> f64 {
+pub(super) fn structure(golden: &Image, found: &Image) -> f64 {
     let score = rgb(golden).zip(rgb(found)).and_then(|(a, b)| rgb_hybrid_compare(&a, &b).ok());
     score.map_or(1.0, |similarity| (1.0 - similarity.score).clamp(0.0, 1.0))
 }

@@ -7,6 +7,7 @@ mod difference;
 mod distance;
 mod gates;
 mod plant;
+mod probe;
 mod skin;
 
 #[cfg(test)]
@@ -19,6 +20,7 @@ pub use difference::difference;
 pub use distance::{Distance, Metric};
 pub use gates::{Gate, GatesError, GatesFile, Known};
 pub use plant::{Defect, Planted, Proof};
+pub use probe::Probe;
 
 pub(super) use distance::measure;
 pub(super) use plant::prove;

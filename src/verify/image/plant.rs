@@ -100,28 +100,50 @@ pub(crate) fn prove(golden: &Image, skin: &Skin, gate: &Distance) -> Proof {
 
 /// A golden with a defect; none where there is no room for it.
 pub(super) fn planted(golden: &Image, skin: &Skin, defect: Defect) -> Option<Image> {
-    let mut image = golden.clone();
+    planted_by(golden, skin, defect, usual(golden, defect))
+}
+
+/// How large a defect every golden has to catch.
+pub(super) fn usual(golden: &Image, defect: Defect) -> f64 {
     match defect {
-        Defect::Hole => {
-            let side = hole(golden.size);
-            darken(&mut image, skin.place([side; 2])?, [side; 2], |_| 0);
-        }
+        Defect::Hole => f64::from(hole(golden.size)),
+        Defect::Crack => f64::from(CRACK),
+        Defect::Tone => f64::from(LESS_RED),
+        Defect::Shift => 1.0,
+    }
+}
+
+/// A golden with a defect of a size: pixels along a hole or a crack, levels less red, or pixels to the right, which may be a part of one.
+pub(super) fn planted_by(golden: &Image, skin: &Skin, defect: Defect, size: f64) -> Option<Image> {
+    let mut image = golden.clone();
+    let whole = size.round() as u32;
+    match defect {
+        Defect::Hole => darken(&mut image, skin.place([whole; 2])?, [whole; 2], |_| 0),
         Defect::Crack => {
-            let across = skin.place([CRACK, 1]).map(|at| (at, [CRACK, 1]));
-            let (at, line) = across.or_else(|| Some((skin.place([1, CRACK])?, [1, CRACK])))?;
+            let across = skin.place([whole, 1]).map(|at| (at, [whole, 1]));
+            let (at, line) = across.or_else(|| Some((skin.place([1, whole])?, [1, whole])))?;
             darken(&mut image, at, line, |v| v / 4);
         }
         _ if skin.lit() < HOLE * HOLE => return None,
         Defect::Tone => {
             let texels = image.texels.iter_mut().filter(|t| skin.holds(**t));
-            texels.for_each(|texel| texel[0] = texel[0].saturating_sub(LESS_RED));
+            texels.for_each(|texel| texel[0] = texel[0].saturating_sub(whole as u8));
         }
         Defect::Shift => {
             let rows = image.texels.chunks_mut(golden.size[0].max(1) as usize);
-            rows.for_each(|row| row.copy_within(..row.len() - 1, 1));
+            rows.for_each(|row| shift(row, size.clamp(0.0, 1.0)));
         }
     }
     Some(image)
+}
+
+/// Moves a row to the right by a part of a pixel.
+fn shift(row: &mut [[u8; 4]], part: f64) {
+    for x in (1..row.len()).rev() {
+        let (here, before) = (row[x], row[x - 1]);
+        let mixed = |c: usize| f64::from(here[c]) + part * (f64::from(before[c]) - f64::from(here[c]));
+        row[x] = [0, 1, 2, 3].map(|c| mixed(c).round() as u8);
+    }
 }
 
 /// Pixels along the hole of a picture.

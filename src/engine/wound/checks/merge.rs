@@ -71,13 +71,15 @@ fn parent_distance(mesh: &Mesh, families: &[Family<'_>]) -> f64 {
     largest(corners)
 }
 
-/// Texture coordinates of new corners are those of their place in the parent, up to 1e-6 and what the place itself is uncertain by.
+/// Texture coordinates of new corners are those of their place in the parent, up to 1e-6 (of their size, where that is more than 1) and what the place itself is uncertain by.
 fn uv_affine(mesh: &Mesh, families: &[Family<'_>], bound: f64) -> Check {
     let mut worst = 0.0;
     for ((face, parent), children) in families {
         let uvs = face.vertices.map(|v| mesh.vertex(v).uv.as_dvec2());
         let extent = uvs[0].distance(uvs[1]).max(uvs[1].distance(uvs[2]));
-        let tolerance = 1e-6 + extent * 4.0 * bound / altitude(*parent).max(f64::MIN_POSITIVE);
+        // Coordinates outside of the unit square have fewer digits after the point.
+        let size = uvs.iter().map(|uv| uv.abs().max_element()).fold(1.0, f64::max);
+        let tolerance = 1e-6 * size + extent * 4.0 * bound / altitude(*parent).max(f64::MIN_POSITIVE);
         for &child in *children {
             for (p, v) in mesh.triangle(child).into_iter().zip(mesh.face(child).vertices) {
                 let expected = affine(*parent, uvs, p);

@@ -16,6 +16,7 @@ use std::sync::Arc;
 
 use journal::{BUDGET, Journal};
 use paint::Ground;
+pub use patch::patch;
 
 use super::super::inspect;
 use super::super::mask::Charts;

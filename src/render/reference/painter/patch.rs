@@ -20,7 +20,7 @@ const INNER_HALF: f32 = 0.475;
 type Color = [f32; 3];
 
 /// Makes a patch.
-pub(super) fn patch(job: &PatchJob) -> Image {
+pub fn patch(job: &PatchJob) -> Image {
     let [w, h] = job.size;
     let columns: Vec<Column> = (0..w).map(|i| Column::new(job, place(i, w))).collect();
     let mut image = Image::filled(job.size, [0; 4]);

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use crossterm::event::MouseEvent;
 
 use crate::assets;
+use crate::recording::SceneRef;
 use crate::report::printable;
 use crate::tui::key::Key;
 use crate::tui::model::Model;
@@ -59,10 +60,11 @@ pub(in crate::tui) fn open(model: &mut Model) {
     model.popup = Some(Popup::Menu(Menu { error, ..Menu::new(What::Open(files)) }));
 }
 
-/// Opens the recording or script that was typed.
+/// Opens the recording or script that was typed, or begins a recording on a scene.
 fn open_path(model: &mut Model, text: &str) -> Result<(), String> {
     let path = PathBuf::from(text.trim());
-    if !assets::is_file(&path) {
+    let is_made = SceneRef::parse_builtin(text.trim()).is_some();
+    if !is_made && !assets::is_file(&path) {
         return Err(format!("{}: there is no such file", printable(path.display())));
     }
     model.ask(Ask::Open(path));

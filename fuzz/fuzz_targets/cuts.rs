@@ -1,0 +1,3 @@
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(init: lancet_fuzz::begin(), |data: &[u8]| lancet_fuzz::attack("cuts", data));

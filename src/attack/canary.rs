@@ -1,0 +1,34 @@
+//! The planted bug: whether it is there, and how soon it is found.
+//!
+//! With the feature `canary` the engine takes an exact zero for a side, for some nodes ([`crate::engine::wound::plane`]). That is the kind of mistake
+//! that this program exists not to make, and no stage notices it by itself. If the fuzzers do not find it within seconds, what else they did not find
+//! that night says nothing.
+
+use super::{Finding, TARGETS, Target};
+use crate::measure::Random;
+
+/// Whether the bug is there. A program in which it is verifies nothing.
+pub const IS_PLANTED: bool = cfg!(feature = "canary");
+
+/// The inputs that were run until something was found, and what it was; none within so many.
+pub fn hunt(seed: u64, inputs: u64) -> Option<(u64, Box<Finding>)> {
+    let target = TARGETS.iter().find(|target| target.name == "canary")?;
+    (0..inputs).find_map(|input| Some((input + 1, attempt(target, seed, input)?)))
+}
+
+fn attempt(target: &Target, seed: u64, input: u64) -> Option<Box<Finding>> {
+    let mut random = Random::of(seed, input, "canary");
+    let bytes: Vec<u8> = (0..super::fusion::BYTES).map(|_| random.any() as u8).collect();
+    target.attempt(&bytes).err()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_planted_bug_is_found_and_without_it_there_is_nothing() {
+        let found = hunt(1, 400);
+        assert_eq!(found.is_some(), IS_PLANTED, "{found:?}");
+    }
+}

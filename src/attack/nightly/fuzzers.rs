@@ -1,0 +1,153 @@
+//! libFuzzer as another program: `cargo +nightly fuzz`, started, waited for, and its words read.
+//!
+//! The one place of the house that starts a program: a fuzzer has to end its process at the first panic, and needs a compiler of its own, so
+//! that it cannot be a part of this one.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::time::Duration;
+
+use super::parts::new_inputs;
+use super::{Night, NightFinding, Part, Progress};
+use crate::assets;
+use crate::attack::Target;
+
+/// Seconds after which an input counts as one that does not end.
+const SLOWEST: u32 = 20;
+/// Most that one input may set aside at once, MB; inputs are of some kilobytes.
+const MOST_MB: u32 = 512;
+/// What libFuzzer says before the path of an input that broke something.
+const WRITTEN: &str = "Test unit written to ";
+
+/// cargo-fuzz with its targets built.
+pub(super) struct Tool {
+    fuzz: PathBuf,
+}
+
+impl Tool {
+    /// The tool for a fuzz crate, or why there is none.
+    pub(super) fn find(fuzz: &Path, progress: Progress<'_>) -> Result<Self, String> {
+        if !assets::is_file(&fuzz.join("Cargo.toml")) {
+            return Err(format!("no cargo-fuzz crate at {}", fuzz.display()));
+        }
+        let tool = Self { fuzz: fuzz.to_path_buf() };
+        match tool.cargo(&["--version"]) {
+            Ok(output) if output.status.success() => {}
+            _ => return Err("no cargo-fuzz".into()),
+        }
+        progress("building the fuzz targets");
+        let built =
+            tool.cargo(&["build", "--fuzz-dir", &tool.folder()]).map_err(|error| error.to_string())?;
+        match built.status.success() {
+            true => Ok(tool),
+            false => Err(format!("no cargo-fuzz that builds: {}", last_line(&text(&built)))),
+        }
+    }
+
+    fn folder(&self) -> String {
+        self.fuzz.display().to_string()
+    }
+
+    fn cargo(&self, arguments: &[&str]) -> std::io::Result<Output> {
+        let mut command = Command::new("cargo");
+        command.args(["+nightly", "fuzz"]).args(arguments).stdin(Stdio::null()).output()
+    }
+
+    /// Runs a target for some time.
+    pub(super) fn fuzz(&self, night: &Night, target: &Target, time: Duration) -> Part {
+        let new = new_inputs(night, target);
+        let old = self.fuzz.join("corpus").join(target.name);
+        if let Err(error) = assets::real_folder(&new) {
+            return Part::unable(error.to_string());
+        }
+        let mut command = Command::new("cargo");
+        command.args(["+nightly", "fuzz", "run", "--fuzz-dir"]).arg(&self.fuzz).arg(target.name).arg(&new);
+        if assets::is_folder(&old) {
+            command.arg(&old);
+        }
+        let seconds = time.as_secs().max(1);
+        command.arg("--").args([
+            // libFuzzer takes a seed of 0 for none.
+            format!("-seed={}", night.seed as u32 | 1),
+            format!("-max_total_time={seconds}"),
+            format!("-timeout={SLOWEST}"),
+            format!("-malloc_limit_mb={MOST_MB}"),
+            "-print_final_stats=1".into(),
+        ]);
+        command.env("LANCET_FINDINGS", &night.findings).stdin(Stdio::null());
+        match command.output() {
+            Ok(output) => part_of(output.status.success(), &text(&output)),
+            Err(error) => Part::unable(error.to_string()),
+        }
+    }
+}
+
+fn text(output: &Output) -> String {
+    [&output.stdout, &output.stderr].map(|bytes| String::from_utf8_lossy(bytes).into_owned()).concat()
+}
+
+fn last_line(text: &str) -> &str {
+    text.lines().rev().find(|line| !line.trim().is_empty()).unwrap_or_default()
+}
+
+/// What a run came to, by its words.
+fn part_of(success: bool, text: &str) -> Part {
+    let word = |before: &str, line: &str| {
+        line.split_once(before).and_then(|(_, rest)| rest.split_whitespace().next()).map(str::to_owned)
+    };
+    let last = |before: &str| text.lines().rev().find_map(|line| word(before, line));
+    let runs = last("stat::number_of_executed_units:").and_then(|n| n.parse().ok()).unwrap_or(0);
+    let said = |before: &str| last(before).unwrap_or_else(|| "?".into());
+    let detail = format!(
+        "{} inputs a second, coverage {}, features {}",
+        said("stat::average_exec_per_sec:"),
+        said("cov: "),
+        said("ft: ")
+    );
+    let input = last(WRITTEN).map(PathBuf::from);
+    match (success, input) {
+        (true, _) => Part::ran(runs, detail, Vec::new()),
+        (false, Some(input)) => Part::ran(runs, detail, vec![finding(text, input)]),
+        (false, None) => Part::unable(last_line(text)),
+    }
+}
+
+/// What broke, and the recording of it if one was written.
+fn finding(text: &str, input: PathBuf) -> NightFinding {
+    let after_panic = text.lines().skip_while(|line| !line.contains("panicked at")).nth(1);
+    let summary = text.lines().find(|line| line.contains("SUMMARY:"));
+    let detail = after_panic.or(summary).unwrap_or("it broke").trim().to_owned();
+    let recording = text.lines().find_map(|line| line.strip_prefix("the recording of it: "));
+    NightFinding { detail, file: Some(recording.map_or(input, PathBuf::from)) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::attack::nightly::Verdict;
+
+    #[test]
+    fn what_libfuzzer_says_is_read() {
+        let sound = "#2\tINITED cov: 12 ft: 13 corp: 1/1b exec/s: 0 rss: 30Mb\n#9\tDONE   cov: 41 ft: 55 corp: 7/9b\n\
+            stat::number_of_executed_units: 9\nstat::average_exec_per_sec:     3\n";
+        let part = part_of(true, sound);
+        assert_eq!((part.verdict, part.count), (Verdict::Passed, 9));
+        assert_eq!(part.detail, "3 inputs a second, coverage 41, features 55");
+        let broken = "thread '<unnamed>' panicked at src/lib.rs:39:9:\npick-is-the-first: f3\nthe recording of it: a/b.lancet\n\
+            artifact_prefix='x/'; Test unit written to x/crash-1\n";
+        let part = part_of(false, broken);
+        assert_eq!(part.verdict, Verdict::Failed);
+        let found = NightFinding { detail: "pick-is-the-first: f3".into(), file: Some("a/b.lancet".into()) };
+        assert_eq!(part.findings, [found]);
+        let without = broken.replace("the recording of it", "");
+        assert_eq!(part_of(false, &without).findings[0].file, Some("x/crash-1".into()));
+        assert_eq!(part_of(false, "error: no such target\n").verdict, Verdict::Unable);
+    }
+
+    #[test]
+    fn without_a_fuzz_crate_there_is_no_tool() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let why = Tool::find(folder.path(), &|_| {}).err().expect("there is none");
+        assert!(why.starts_with("no cargo-fuzz"), "{why}");
+    }
+}

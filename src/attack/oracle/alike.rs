@@ -1,0 +1,177 @@
+//! The line does not depend on what axes are called, which way is left, where zero is, where a face's corners begin, or from which end one goes.
+//!
+//! Signs stay exactly, or all turn around; lengths are rounded otherwise. So the constructs along the line must be the same, unless two ways from
+//! pick to pick are equally long, or something was snapped (which goes by rounded distances). A shift counts only where no
+//! coordinate, nor the eye or a pick, is rounded by it.
+
+use glam::DVec3;
+
+use super::exact::is_by_ids;
+use super::map::Map;
+use super::{Verdict, Witness, require};
+use crate::attack::Hits;
+use crate::engine::wound::chain::{At, Chain};
+use crate::engine::wound::{Cut, Pick, State, Work, Wound, WoundEvent};
+use crate::engine::{Engine, Start};
+use crate::mesh::{Face, FaceId};
+use crate::report::Rejection;
+
+/// Of two ways of so nearly equal length either may be taken.
+const TIE: f64 = 1e-9;
+/// The eye is put on a grid of so many parts of a unit before it is shifted.
+const GRID: f64 = 1024.0;
+
+/// One way to see the same cut otherwise.
+#[derive(Clone, Copy, Debug)]
+enum Way {
+    Mapped(Map),
+    /// Every face begins at another corner.
+    Turned,
+    /// From the second pick to the first.
+    Back,
+}
+
+pub(super) fn look(witness: &Witness<'_>, hits: &mut Hits) -> Verdict {
+    let (Some(cut), true) = (witness.ran.cut(), is_by_ids(witness.event)) else { return Ok(()) };
+    let way = choose(witness.key);
+    let eye = match way {
+        Way::Mapped(map) if map.shift != DVec3::ZERO => (cut.eye * GRID).round() / GRID,
+        _ => cut.eye,
+    };
+    let mine = form(&mut witness.before.clone(), witness.event, eye);
+    let Some(theirs) = otherwise(way, witness, eye) else { return Ok(()) };
+    hits.note("oracle alike");
+    compare(way, mine, theirs)
+}
+
+fn choose(key: u32) -> Way {
+    let mapped = |axes, factors: [f64; 3], shift: [f64; 3]| {
+        Way::Mapped(Map { axes, factors: DVec3::from(factors), shift: DVec3::from(shift) })
+    };
+    let none = [0.0; 3];
+    match key % 8 {
+        0 => mapped([1, 2, 0], [1.0; 3], none),
+        1 => mapped([1, 0, 2], [1.0, 1.0, -1.0], none),
+        2 => Way::Turned,
+        3 => Way::Back,
+        4 => mapped([0, 1, 2], [-1.0, 1.0, 1.0], none),
+        5 => mapped([0, 1, 2], [1.0; 3], [3.0, -64.0, 1024.0]),
+        6 => mapped([2, 1, 0], [1.0, -1.0, 0.25], none).uniform(),
+        _ => mapped([0, 1, 2], [1.0; 3], [-1_048_576.0, 0.5, 16.0]),
+    }
+}
+
+impl Way {
+    /// The same with all factors of one size.
+    fn uniform(self) -> Self {
+        match self {
+            Self::Mapped(map) => Self::Mapped(Map { factors: map.factors.signum(), ..map }),
+            other => other,
+        }
+    }
+}
+
+/// FC alone, taken back again: the cut with its line, or why there is none.
+fn form(state: &mut State, event: &WoundEvent, eye: DVec3) -> Result<Box<Cut>, Rejection> {
+    let Start::Run(mut work) = Wound::start(state, event, 0) else {
+        return Err(Rejection::new("none", "it is no cut"));
+    };
+    if let Work::Cut(cut) = &mut work {
+        cut.eye = eye;
+    }
+    let ran = (Wound::STAGES[0].run)(state, &mut work);
+    Wound::rollback(state, &mut work);
+    match work {
+        Work::Cut(cut) => ran.map(|()| cut),
+        Work::Subdivide { .. } => Err(Rejection::new("none", "it is no cut")),
+    }
+}
+
+/// The same cut seen otherwise; None where that would be another cut.
+fn otherwise(way: Way, witness: &Witness<'_>, eye: DVec3) -> Option<Result<Box<Cut>, Rejection>> {
+    match way {
+        Way::Mapped(map) => {
+            let (before, picked) = (&witness.before.mesh, witness.ran.cut()?.picked?);
+            let exact = before.positions().iter().all(|p| map.is_exact_at(*p)) && map.is_exact_at(eye);
+            let mut image = map.state(witness.ground, witness.before);
+            let formed = form(&mut image, witness.event, map.point(eye));
+            let through = formed.as_ref().ok().and_then(|cut| cut.picked).unwrap_or(picked);
+            let same = |i: usize| map.point(picked[i].through) == through[i].through;
+            let follows = formed.is_err() || (same(0) && same(1));
+            let on_grid = (0..2).all(|i| map.is_exact_at(picked[i].through));
+            (exact && follows && on_grid).then_some(formed)
+        }
+        Way::Turned => {
+            let (mut image, event) = turned(witness)?;
+            let mine = witness.ran.cut()?.picked?;
+            let formed = form(&mut image, &event, eye);
+            let theirs = formed.as_ref().ok().and_then(|cut| cut.picked).unwrap_or(mine);
+            let same = (0..2).all(|i| mine[i].through == theirs[i].through);
+            same.then_some(formed)
+        }
+        Way::Back => {
+            let WoundEvent::Cut { from, to } = *witness.event else { return None };
+            let event = WoundEvent::Cut { from: to, to: from };
+            let formed = form(&mut witness.before.clone(), &event, eye);
+            Some(formed.map(|mut cut| {
+                cut.formed.chain.points.reverse();
+                cut
+            }))
+        }
+    }
+}
+
+/// The state with the corners of every face turned by one, and the event that names the same picks there.
+fn turned(witness: &Witness<'_>) -> Option<(State, WoundEvent)> {
+    let mut state = Map::IDENTITY.state(witness.ground, witness.before);
+    for f in (0..state.mesh.face_count()).map(FaceId::of) {
+        let Face { mut nodes, mut vertices, mut edges, surface } = *state.mesh.face(f);
+        nodes.rotate_left(1);
+        vertices.rotate_left(1);
+        edges.rotate_left(1);
+        state.mesh.set_face(f, Face { nodes, vertices, edges, surface });
+    }
+    // The weights are 1 − u − v, u, v; turned they are u, v, 1 − u − v.
+    let turn = |pick: Pick| match pick {
+        Pick::Face(f, u, v) => Pick::Face(f, v, 1.0 - u - v),
+        other => other,
+    };
+    match *witness.event {
+        WoundEvent::Cut { from, to } => Some((state, WoundEvent::Cut { from: turn(from), to: turn(to) })),
+        _ => None,
+    }
+}
+
+fn compare(way: Way, mine: Result<Box<Cut>, Rejection>, theirs: Result<Box<Cut>, Rejection>) -> Verdict {
+    let rounded = |r: &Result<Box<Cut>, Rejection>| match r {
+        Ok(cut) => cut.plane.as_ref().is_none_or(|plane| plane.snapped() > 0),
+        Err(rejection) => rejection.reason == "below-resolution",
+    };
+    if rounded(&mine) || rounded(&theirs) {
+        return Ok(());
+    }
+    match (&mine, &theirs) {
+        (Ok(a), Ok(b)) => lines(way, &a.formed.chain, &b.formed.chain),
+        // Where the way ends depends on where it begins.
+        (Err(_), Err(_)) if matches!(way, Way::Back) => Ok(()),
+        (Err(a), Err(b)) => require(a.reason == b.reason, "alike-outcome", || {
+            format!("{way:?}: {} became {}", a.reason, b.reason)
+        }),
+        (Ok(_), Err(b)) => require(false, "alike-outcome", || format!("{way:?}: rejected: {}", b.detail)),
+        (Err(a), Ok(_)) => require(false, "alike-outcome", || format!("{way:?}: only there: {}", a.detail)),
+    }
+}
+
+fn lines(way: Way, a: &Chain, b: &Chain) -> Verdict {
+    let places = |chain: &Chain| chain.points.iter().map(|p| p.at).collect::<Vec<At>>();
+    let scale = match way {
+        Way::Mapped(map) => map.scale(),
+        _ => 1.0,
+    };
+    let [long, other] = [a.length() * scale, b.length()];
+    let tie = (long - other).abs() <= TIE * long.max(other);
+    let (mine, theirs) = (places(a), places(b));
+    require(tie || mine == theirs, "alike-line", || format!("{way:?}: {mine:?} became {theirs:?}"))?;
+    // The same length through other places is a way round the other side, and no other way along the same one.
+    require(tie, "alike-length", || format!("{way:?}: {long} became {other}"))
+}
