@@ -459,6 +459,9 @@ pub(super) enum Measured {
         /// Write a script for each finding into this folder
         #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
         findings: Option<PathBuf>,
+        /// Write a picture of each ladder into this folder, as SVG
+        #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+        plot: Option<PathBuf>,
         #[command(flatten)]
         common: MeasureOptions,
     },

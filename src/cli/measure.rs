@@ -36,12 +36,15 @@ pub(super) fn run(typed: &Measure, console: &mut Console<'_>) -> Done {
             answer(&report, &report.tables(), common, console)
         }
         Measured::Accuracy(typed) => accuracy(typed, console),
-        Measured::Stability { cuts, per_rung, seed, jobs: threads, findings, common } => {
+        Measured::Stability { cuts, per_rung, seed, jobs: threads, findings, plot, common } => {
             let cuts = or_else(*cuts, common, [100_000, 2_000]);
             let per_rung = or_else(*per_rung, common, [400, 40]);
             let options = stability::Options { cuts, per_rung, seed: *seed, jobs: jobs(*threads) };
             let report = showing(console, |told| stability::measure(&options, told))?;
             answer(&report, &report.tables(), common, console)?;
+            if let Some(folder) = plot {
+                draw_ladders(&report, folder)?;
+            }
             broken(&report, findings.as_deref(), common, console)
         }
     }
@@ -82,6 +85,14 @@ fn write_plots(report: &AccuracyReport, folder: &Path) -> Result<(), Failure> {
     for curve in &report.curves {
         let file = folder.join(format!("{}.svg", curve.name));
         assets::write_file(&file, plot::svg(&curve.plot()).as_bytes())?;
+    }
+    Ok(())
+}
+
+fn draw_ladders(report: &StabilityReport, folder: &Path) -> Result<(), Failure> {
+    for ladder in &report.ranges.ladders {
+        let (name, picture) = ladder.plot();
+        assets::write_file(&folder.join(name), picture.as_bytes())?;
     }
     Ok(())
 }

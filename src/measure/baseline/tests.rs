@@ -40,10 +40,10 @@ fn both_kinds_of_floats_go_the_exact_way_where_nothing_is_near() {
     let (state, picked, eye) = across(0.0, 0.25);
     let section = Section::of(&state.mesh, &Question::of(eye, &picked)).expect("a section");
     let line = section.line().expect("a line");
-    let [narrow, wide] = SHARES.map(|share| epsilon(&state.mesh, share));
-    let chains = [cut::<f32>(&state.mesh, eye, &picked, narrow), cut::<f64>(&state.mesh, eye, &picked, wide)];
+    let [coarse, fine] = SHARES.map(|share| epsilon(&state.mesh, share));
+    let chains = [cut::<f32>(&state.mesh, eye, &picked, coarse), cut::<f64>(&state.mesh, eye, &picked, fine)];
     for chain in chains.map(|chain| chain.expect("a line")) {
-        assert_eq!(judge(&section, &line, &chain, wide), Ok(()));
+        assert_eq!(judge(&section, &line, &chain, fine), Ok(()));
         assert_eq!(chain.faces, line.faces);
         assert_eq!((chain.places.len(), chain.faces.len()), (8, 7));
     }
@@ -66,10 +66,10 @@ fn what_is_within_epsilon_of_a_node_is_taken_for_it() {
 fn far_from_the_origin_f32_fails_first() {
     let fails = |shift: f64| {
         let (state, picked, eye) = across(shift, 0.25);
-        let [narrow, wide] = SHARES.map(|share| epsilon(&state.mesh, share));
+        let [coarse, fine] = SHARES.map(|share| epsilon(&state.mesh, share));
         [
-            cut::<f32>(&state.mesh, eye, &picked, narrow).err(),
-            cut::<f64>(&state.mesh, eye, &picked, wide).err(),
+            cut::<f32>(&state.mesh, eye, &picked, coarse).err(),
+            cut::<f64>(&state.mesh, eye, &picked, fine).err(),
         ]
         .map(|failure| failure.is_some_and(Failure::is_lost))
     };

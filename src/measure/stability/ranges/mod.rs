@@ -8,6 +8,7 @@
 //! plane than ε (**wrong**). Where ε merely takes nodes for coincident with the line the cut counts as done.
 
 mod ladders;
+mod plot;
 mod report;
 mod rung;
 mod sample;

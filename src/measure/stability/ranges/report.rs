@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::ladders::{LADDERS, Ladder};
+use super::plot;
 use super::rung::{Found, Ours, Rung, Theirs};
 use crate::measure::figure::table;
 use crate::measure::stability::Options;
@@ -88,7 +89,12 @@ impl RangesReport {
 }
 
 impl LadderReport {
-    fn new(ladder: &Ladder, rungs: Vec<Rung>) -> Self {
+    /// A picture of it, as an SVG document, and the name of its file.
+    pub fn plot(&self) -> (String, String) {
+        (format!("stability-{}.svg", self.name.replace(' ', "-")), plot::svg(self))
+    }
+
+    pub(super) fn new(ladder: &Ladder, rungs: Vec<Rung>) -> Self {
         let below = |ours: &Ours| ours.refused.contains_key("below-resolution");
         let refusing = outward(&rungs).find(|rung| below(&rung.ours)).map(|rung| rung.value);
         Self {
@@ -186,13 +192,13 @@ fn seen(count: usize) -> String {
     if count == 0 { "·".into() } else { count.to_string() }
 }
 
-/// As it is written in the ladders.
-fn number(value: f64) -> String {
+/// A rung's number: powers of ten as such.
+pub(super) fn number(value: f64) -> String {
     let short = format!("{value:e}");
     if short.starts_with("1e") && !(1.0..100.0).contains(&value) { short } else { value.to_string() }
 }
 
-fn capitalised(word: &str) -> String {
+pub(super) fn capitalised(word: &str) -> String {
     let mut letters = word.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

@@ -1,5 +1,5 @@
 use super::ladders::{LADDERS, mend};
-use super::report::Until;
+use super::report::{LadderReport, Until};
 use super::rung::{Base, Ours, Rung, Theirs, run};
 use super::{Options, measure};
 use crate::assets::builtin::builtin;
@@ -95,4 +95,19 @@ fn the_engine_breaks_nowhere_and_plain_f32_fails_far_away() {
     assert!(far.rungs[0].ours.applied > 0 && far.rungs[0].plain_f64.failures.is_empty());
     assert!(far.rungs.last().is_some_and(|rung| rung.plain_f32.lost() > 0), "{far:?}");
     assert_eq!(one.tables().len(), 1 + LADDERS.len());
+}
+
+#[test]
+fn what_fails_is_drawn() {
+    let of = |failures: [usize; 2]| {
+        let rungs = vec![rung(0.0, failures[0]), rung(1e6, failures[1])];
+        let ladder = LadderReport::new(&LADDERS[0], rungs);
+        let (name, picture) = ladder.plot();
+        assert_eq!(name, "stability-translation.svg");
+        assert!(picture.starts_with("<svg") && picture.ends_with("</svg>\n") && !picture.contains("NaN"));
+        (picture.matches("class=\"failed\"").count(), picture.contains(">1e6</text>"))
+    };
+    assert_eq!(of([0, 0]), (0, true));
+    assert_eq!(of([0, 3]), (2, true));
+    assert_eq!(of([9, 9]), (4, true));
 }
