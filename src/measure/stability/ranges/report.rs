@@ -131,7 +131,7 @@ impl LadderReport {
 }
 
 impl Until {
-    fn of(rungs: &[Rung], holds: impl Fn(&Rung) -> bool) -> Self {
+    pub(super) fn of(rungs: &[Rung], holds: impl Fn(&Rung) -> bool) -> Self {
         let start = start(rungs);
         let down = rungs[..start].iter().rev().take_while(|rung| holds(rung)).count();
         let up = rungs[start..].iter().take_while(|rung| holds(rung)).count();
