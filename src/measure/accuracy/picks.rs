@@ -51,6 +51,9 @@ struct Ray {
 /// A ray's first face, and where it is met.
 type Met = Option<(FaceId, DVec3)>;
 
+/// A way to meet the surface.
+type Way<'a> = Box<dyn FnMut(&Ray) -> Met + Send + 'a>;
+
 /// How far picks are from where they should be.
 #[derive(Clone, Copy, Debug)]
 struct Errors {
@@ -114,7 +117,7 @@ impl Ray {
 
 fn of_mesh(series: &str, state: &mut State, rays: &[Ray], rounds: usize) -> Result<Vec<Row>, MeasureError> {
     let (eye, mesh) = (state.control.camera.eye(), state.mesh.clone());
-    let ways: [(&str, Box<dyn FnMut(&Ray) -> Met + '_>); 3] = [
+    let ways: [(&str, Way<'_>); 3] = [
         ("every face, f32", Box::new(|ray| every_face::<f32>(&mesh, eye, ray.through))),
         ("every face, f64", Box::new(|ray| every_face::<f64>(&mesh, eye, ray.through))),
         ("hierarchy, exact signs", Box::new(|ray| by_hierarchy(state, ray))),

@@ -1,5 +1,8 @@
 //! Who is timed takes turns: round by round each task runs once, so that whatever else runs on the machine disturbs all alike.
 //!
+//! **One thread** does it all: a pass that would be shared out among threads waits for the slowest of them, and on a shared machine that is anybody's guess. What is
+//! measured is work.
+//!
 //! **The yardstick** is a fixed piece of work that begins every round: square roots and hashes in registers, and a walk over memory that no cache
 //! of the first level holds. No change of the program touches it, so what a task takes in yardsticks can be compared between runs, machines and
 //! changes, roughly: up to what the machine is better at.
@@ -7,10 +10,12 @@
 use std::hint::black_box;
 use std::time::Instant;
 
+use rayon::ThreadPoolBuilder;
+
 use crate::measure::{Figure, MeasureError, Random};
 
 /// Runs once, and says how many microseconds of that count.
-pub(super) type Task<'a> = Box<dyn FnMut() -> Result<f64, MeasureError> + 'a>;
+pub(super) type Task<'a> = Box<dyn FnMut() -> Result<f64, MeasureError> + Send + 'a>;
 
 /// What a task takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -23,6 +28,12 @@ pub(super) struct Timing {
 
 /// Runs all tasks in turns, after a round that warms up.
 pub(super) fn in_turns(rounds: usize, tasks: &mut [Task<'_>]) -> Result<Vec<Timing>, MeasureError> {
+    let pool = ThreadPoolBuilder::new().num_threads(1).build();
+    let pool = pool.map_err(|error| MeasureError::Rejected(error.to_string()))?;
+    pool.install(|| run(rounds, tasks))
+}
+
+fn run(rounds: usize, tasks: &mut [Task<'_>]) -> Result<Vec<Timing>, MeasureError> {
     let mut yardstick = Yardstick::new();
     let mut taken: Vec<Vec<[f64; 2]>> = vec![Vec::with_capacity(rounds); tasks.len()];
     for round in 0..=rounds {
@@ -81,17 +92,18 @@ mod tests {
 
     #[test]
     fn tasks_take_turns_and_the_first_round_does_not_count() {
-        let order = std::cell::RefCell::new(Vec::new());
+        let order = std::sync::Mutex::new(Vec::new());
         let task = |name: usize| -> Task<'_> {
             let order = &order;
             Box::new(move || {
-                order.borrow_mut().push(name);
+                let mut order = order.lock().expect("nobody panicked");
+                order.push(name);
                 // The round that warms up takes longest.
-                Ok(if order.borrow().len() <= 2 { 1e9 } else { 10.0 * (name + 1) as f64 })
+                Ok(if order.len() <= 2 { 1e9 } else { 10.0 * (name + 1) as f64 })
             })
         };
         let timings = in_turns(3, &mut [task(0), task(1)]).expect("they run");
-        assert_eq!(*order.borrow(), [0, 1, 0, 1, 0, 1, 0, 1]);
+        assert_eq!(*order.lock().expect("nobody panicked"), [0, 1, 0, 1, 0, 1, 0, 1]);
         assert_eq!(timings.iter().map(|t| t.us.high).collect::<Vec<_>>(), [10.0, 20.0]);
         assert!(timings.iter().all(|t| t.effort.median > 0.0));
     }

@@ -7,6 +7,9 @@ const NOUGHT: f64 = 0.03;
 /// Up to so many decades also twos and fives are named.
 const FEW: f64 = 2.6;
 
+/// Beyond so many decades only they have a line.
+const MANY: f64 = 7.0;
+
 /// An axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scale {
@@ -75,7 +78,7 @@ impl Scale {
             for step in 1..10_u8 {
                 let value = f64::from(step) * libm::exp10(decade as f64);
                 let place = libm::log10(value);
-                if place < first || place > self.to {
+                if place < first || place > self.to || step > 1 && decades > MANY {
                     continue;
                 }
                 let named = match step {
