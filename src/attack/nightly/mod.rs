@@ -115,7 +115,7 @@ mod tests {
         let names: Vec<&str> = report.parts.iter().map(|part| part.name.as_str()).collect();
         assert_eq!(names[..2], ["verify", "stability"]);
         assert_eq!(names.len(), 5 + TARGETS.len());
-        assert!(report.matrix.is_some_and(|matrix| matrix.empty().is_empty()));
+        assert!(report.matrix.as_ref().is_some_and(|matrix| matrix.empty().is_empty()));
         assert!(report.parts.iter().all(|part| part.verdict == Verdict::Passed), "{report:?}");
         let fuzzed = report.parts.iter().filter(|part| part.name.starts_with("fuzz "));
         assert!(

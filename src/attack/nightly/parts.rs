@@ -16,7 +16,7 @@ const FIRST_CUTS: usize = 100;
 /// Cuts of a round at most, so that the clock is looked at now and then.
 const MOST_CUTS: usize = 12_800;
 /// Inputs of the sweep that fills the matrix.
-const SWEEP: usize = 1_000;
+const SWEEP: usize = 4_000;
 /// Inputs between two looks at the clock.
 const GUST: usize = 16;
 
