@@ -1,7 +1,7 @@
 //! The planted bug: whether it is there, and how soon it is found.
 //!
-//! With the feature `canary` the engine takes an exact zero for a side, for some nodes ([`crate::engine::wound::plane`]). That is the kind of mistake
-//! that this program exists not to make, and no stage notices it by itself. If the fuzzers do not find it within seconds, what else they did not find
+//! With the feature `canary` a face that is cut through two of its sides gets the vertices of the wrong side of a seam ([`crate::mesh::refine`]): the
+//! surface is the same, and most cuts cross no seam. If the fuzzers do not find that within seconds, what else they did not find
 //! that night says nothing.
 
 use super::{Finding, TARGETS, Target};

@@ -11,6 +11,9 @@ use crate::recording::{InlineMesh, Recording, SceneRef};
 
 /// The most cuts of an input.
 const CUTS: usize = 16;
+/// The same in a scene of more faces than these.
+const FEW: usize = 4;
+const LARGE: usize = 600;
 /// What coordinates are multiplied by.
 const SCALES: [f64; 8] = [1.0, 1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9, 16.0];
 /// What is added to them after that, in largest coordinates.
@@ -59,7 +62,8 @@ fn elsewhere(mesh: &InlineMesh, dice: &mut Dice<'_>) -> InlineMesh {
 
 fn draw(trial: &mut Trial, dice: &mut Dice<'_>) {
     events::view(trial, dice);
-    let cuts = 2 + dice.below(CUTS);
+    let is_large = trial.state.mesh.face_count() > LARGE;
+    let cuts = 2 + dice.below(if is_large { FEW } else { CUTS });
     for _ in 0..cuts {
         // Where the bytes end so does the input: what follows would be the first choice again and again.
         if trial.is_over() || dice.is_empty() {

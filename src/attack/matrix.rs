@@ -290,7 +290,7 @@ mod tests {
 
     #[test]
     fn every_cell_that_can_be_reached_is_and_no_other() {
-        let matrix = Matrix::of(&sweep(1, 1_000).expect("no finding"));
+        let matrix = Matrix::of(&sweep(1, 4_000).expect("no finding"));
         assert_eq!(matrix.empty(), Vec::<&Cell>::new());
         assert_eq!(matrix.wrong(), Vec::<&Cell>::new());
         let [counts, reasons] = &matrix.tables()[..] else { panic!("two tables") };

@@ -45,8 +45,12 @@ impl Picker<'_, '_> {
     pub(super) fn pair(&mut self) -> [Pick; 2] {
         let classes = [(); 2].map(|()| self.dice.one_of(CLASSES));
         let face = self.face();
-        match self.dice.below(10) {
+        match self.dice.below(12) {
             0..=2 => self.in_both(classes, [face, face]),
+            10 | 11 => {
+                let face = self.edge_on().unwrap_or(face);
+                self.in_both(classes, [face, face])
+            }
             3 => {
                 let next = self.neighbour(face);
                 self.in_both(classes, [face, next])

@@ -47,10 +47,10 @@ fn is_sound(nodes: &[DVec3], faces: &[[u32; 3]]) -> bool {
 
 /// One without blemishes.
 pub(in super::super) fn plain(dice: &mut Dice<'_>) -> Shape {
-    match dice.below(8) {
+    match dice.below(9) {
         0 => fan(dice),
         1 | 2 => sheet(dice),
-        3 => stairs(dice),
+        3 | 8 => stairs(dice),
         4 => ring(dice),
         5 => plate(dice),
         6 => bipyramid(dice),

@@ -8,6 +8,7 @@ use glam::DVec3;
 
 use super::exact::is_by_ids;
 use super::map::Map;
+use super::rational::is_rounded;
 use super::{Verdict, Witness, require};
 use crate::attack::Hits;
 use crate::engine::wound::chain::{At, Chain};
@@ -146,7 +147,7 @@ fn turned(witness: &Witness<'_>) -> Option<(State, WoundEvent)> {
 
 fn compare(way: Way, mine: Result<Box<Cut>, Rejection>, theirs: Result<Box<Cut>, Rejection>) -> Verdict {
     let rounded = |r: &Result<Box<Cut>, Rejection>| match r {
-        Ok(cut) => cut.plane.as_ref().is_none_or(|plane| plane.snapped() > 0),
+        Ok(cut) => is_rounded(cut),
         Err(rejection) => rejection.reason == "below-resolution",
     };
     if rounded(&mine) || rounded(&theirs) {
