@@ -93,7 +93,7 @@ fn compare(typed: &Typed) -> Result<bool, String> {
         println!("kept in {}", file().display());
         return Ok(true);
     }
-    if kept.made != now.made {
+    if !kept.paths.is_empty() && kept.made != now.made {
         println!(
             "not compared: those that are kept were made by\n  {}\nand these by\n  {}",
             kept.made, now.made
