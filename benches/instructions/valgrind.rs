@@ -56,7 +56,11 @@ fn callgrind(out: &Path, plant: Option<&str>) -> Result<Output, String> {
 /// The compiler that this package is built with.
 fn compiler() -> Result<String, String> {
     let output = Command::new("rustc").arg("--version").current_dir(env!("CARGO_MANIFEST_DIR")).output();
-    output.map(|output| text(&output)).map_err(|error| format!("rustc: {error}"))
+    let output = output.map_err(|error| format!("rustc: {error}"))?;
+    match output.status.success() {
+        true => Ok(text(&output)),
+        false => Err(format!("rustc --version: {}", String::from_utf8_lossy(&output.stderr).trim())),
+    }
 }
 
 /// What else there is in the program, which moves the rest about.
