@@ -15,10 +15,11 @@ mod paths;
 mod valgrind;
 
 use std::fs;
+use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use lancet::measure::counts::{Counts, share};
+use lancet::measure::counts::{Count, Counts, share};
 
 /// What was typed.
 #[derive(Default)]
@@ -31,10 +32,13 @@ struct Typed {
 }
 
 fn main() -> ExitCode {
+    let mut said = String::new();
     let done = Typed::read(std::env::args().skip(1)).and_then(|typed| match typed.measured {
-        true => paths::run(typed.plant.as_deref()).map(|()| true),
-        false => compare(&typed),
+        true => paths::run(typed.plant.as_deref(), &mut said).map(|()| true),
+        false => compare(&typed, &mut said),
     });
+    // A reader that went away needs no answer.
+    let _ = std::io::stdout().write_all(said.as_bytes());
     match done {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::from(1),
@@ -76,9 +80,9 @@ fn file() -> PathBuf {
 }
 
 /// Whether all is as it is kept, or kept by now.
-fn compare(typed: &Typed) -> Result<bool, String> {
+fn compare(typed: &Typed, said: &mut String) -> Result<bool, String> {
     let Some(valgrind) = valgrind::version() else {
-        println!("skipped: no valgrind");
+        *said += "skipped: no valgrind\n";
         return Ok(true);
     };
     let kept = match file().exists() {
@@ -86,35 +90,33 @@ fn compare(typed: &Typed) -> Result<bool, String> {
         false => Counts::default(),
     };
     let now = valgrind::count(&valgrind, typed.plant.as_deref())?;
-    show(&kept, &now);
+    *said += &table(&kept, &now);
     if typed.bless {
         let reason = typed.reason.as_deref().unwrap_or_default().trim();
         fs::write(file(), kept.blessed(&now, reason).text()).map_err(|error| error.to_string())?;
-        println!("kept in {}", file().display());
+        *said += "kept\n";
         return Ok(true);
     }
-    if kept.made != now.made {
-        println!(
-            "not compared: those that are kept were made by\n  {}\nand these by\n  {}",
-            kept.made, now.made
-        );
+    if !kept.paths.is_empty() && kept.made != now.made {
+        let [kept, now] = [kept.made, now.made];
+        *said +=
+            &format!("not compared: those that are kept were made by\n  {kept}\nand these by\n  {now}\n");
         return Ok(true);
     }
     let changes = kept.changes(&now);
-    changes.iter().for_each(|change| println!("{change}"));
+    changes.iter().for_each(|change| *said += &format!("{change}\n"));
     if !changes.is_empty() {
-        println!("What was meant is kept with: -- --bless --reason TEXT");
+        *said += "What was meant is kept with: -- --bless --reason TEXT\n";
     }
     Ok(changes.is_empty())
 }
 
-fn show(kept: &Counts, now: &Counts) {
-    println!("{:<16} {:>14} {:>9}", "path", "instructions", "change");
-    for is in &now.paths {
+fn table(kept: &Counts, now: &Counts) -> String {
+    let row = |is: &Count| {
         let was = kept.paths.iter().find(|was| was.name == is.name);
-        let change = was.map_or("new".into(), |was| {
-            format!("{:+.2} %", 100.0 * share(was.instructions, is.instructions))
-        });
-        println!("{:<16} {:>14} {change:>9}", is.name, is.instructions);
-    }
+        let off = |was: &Count| format!("{:+.2} %", 100.0 * share(was.instructions, is.instructions));
+        format!("{:<16} {:>14} {:>9}\n", is.name, is.instructions, was.map_or("new".into(), off))
+    };
+    let head = format!("{:<16} {:>14} {:>9}\n", "path", "instructions", "change");
+    std::iter::once(head).chain(now.paths.iter().map(row)).collect()
 }
