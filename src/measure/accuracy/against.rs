@@ -29,7 +29,7 @@ pub struct StoredRow {
     pub series: String,
     /// The setting.
     pub setting: String,
-    /// Yardsticks that it took.
+    /// Yardsticks that it took: the lower quartile, since what disturbs makes it longer.
     pub effort: f64,
     /// Its error; none where it failed.
     pub error: Option<f64>,
@@ -65,7 +65,7 @@ impl Stored {
         let row = |row: &Row| StoredRow {
             series: row.series.clone(),
             setting: row.setting.clone(),
-            effort: row.effort.median,
+            effort: row.effort.low,
             error: row.error,
         };
         let curves = report.curves.iter();
@@ -132,7 +132,7 @@ impl StoredRow {
     /// What is wrong with a setting as it is now, where errors up to `least` are none.
     fn worse(&self, now: &Row, least: f64) -> Option<String> {
         let (was_error, error) = (or_never(self.error), or_never(now.error));
-        let (slower, wider) = (now.effort.median / self.effort, error / was_error);
+        let (slower, wider) = (now.effort.low / self.effort, error / was_error);
         let is_slower = slower > TIME;
         let is_wider = error > was_error * ERROR + least;
         (is_slower && is_wider).then(|| {

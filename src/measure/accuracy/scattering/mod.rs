@@ -47,6 +47,9 @@ pub fn run(ask: &Ask<'_>) -> Result<Vec<Curve>, MeasureError> {
     measure(SIDE, ask.of(&SAMPLES, QUICK), ask.rounds, ask.studio)
 }
 
+/// How light scatters with so many samples.
+type Look = fn(u32) -> Scattering;
+
 /// A picture before and after it scattered.
 struct Sample {
     name: &'static str,
@@ -72,13 +75,13 @@ fn measure(
     let lights = [("edge", edge(side)), ("discs", discs(side)), ("bust", frame(side, studio)?)];
     let pictures =
         lights.map(|(name, light)| Sample { name, truth: convolved(&light, PIXELS_PER_CM), light });
-    let looks: [(&str, fn(u32) -> Scattering); 2] = [("profile", profile), ("shipped", shipped)];
-    looks.into_iter().map(|(name, look)| curve(name, look, &pictures, &samples, rounds)).collect()
+    let curve = |name: &str, look: Look| curve(name, look, &pictures, &samples, rounds);
+    Ok(vec![curve("profile", profile)?, curve("shipped", shipped)?])
 }
 
 fn curve(
     name: &str,
-    look: fn(u32) -> Scattering,
+    look: Look,
     pictures: &[Sample],
     samples: &[u32],
     rounds: usize,
