@@ -68,10 +68,10 @@ impl Tool {
         }
         progress(CANARY);
         let (clock, seed) = (Instant::now(), format!("-seed={}", night.seed as u32 | 1));
-        let limit = format!("-max_total_time={CANARY_SECONDS}");
+        let (limit, stats) = (format!("-max_total_time={CANARY_SECONDS}"), "-print_final_stats=1");
         let findings = night.findings.join(CANARY);
         let mut command = Command::new("cargo");
-        command.args(["+nightly", "fuzz", "run"]).args(options).args([CANARY, "--", &seed, &limit]);
+        command.args(["+nightly", "fuzz", "run"]).args(options).args([CANARY, "--", &seed, &limit, stats]);
         command.env("LANCET_FINDINGS", &findings).stdin(Stdio::null());
         match command.output() {
             Ok(output) => canary_of(&part_of(output.status.success(), &text(&output)), clock.elapsed()),
