@@ -28,7 +28,7 @@ mod tests {
 
     #[test]
     fn the_planted_bug_is_found_and_without_it_there_is_nothing() {
-        let found = hunt(1, 400);
+        let found = hunt(1, 200);
         assert_eq!(found.is_some(), IS_PLANTED, "{found:?}");
     }
 }
