@@ -224,7 +224,7 @@ mod tests {
         assert!(0.0 < off(0.01) && off(0.01) < off(0.1) && off(0.1) < off(0.4) && off(0.4) < 1.0);
         // The eye hardly sees a fine checkerboard of colour, but one of grey.
         let checker = |on: Color| {
-            let texel = |i: usize| if (i % 24 + i / 24) % 2 == 0 { on } else { [0.5; 3] };
+            let texel = |i: usize| if (i % 24 + i / 24).is_multiple_of(2) { on } else { [0.5; 3] };
             (0..24 * 20).map(texel).collect::<Vec<_>>()
         };
         let [blue, light] = [[0.5, 0.5, 0.7], [0.7; 3]].map(|on| mean(SIZE, &grey, &checker(on)));

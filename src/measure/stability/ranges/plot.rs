@@ -27,6 +27,9 @@ text{fill:#3b434e;font-family:system-ui,-apple-system,'Segoe UI',Roboto,'DejaVu 
 /// What one program did on a rung: cuts asked for, failed and refused.
 type Cell = (usize, usize, usize);
 
+/// What a program came to on a rung.
+type Of = fn(&Rung) -> Cell;
+
 fn ours(rung: &Rung) -> Cell {
     (rung.cuts, rung.ours.findings, rung.ours.refused.values().sum())
 }
@@ -39,7 +42,7 @@ fn theirs(theirs: &Theirs) -> Cell {
 pub(super) fn svg(ladder: &LadderReport) -> String {
     let mut out = String::new();
     head(&mut out, ladder);
-    let programs: [(&str, fn(&Rung) -> Cell); 3] = [
+    let programs: [(&str, Of); 3] = [
         ("engine", ours),
         ("f64 with ε", |rung| theirs(&rung.plain_f64)),
         ("f32 with ε", |rung| theirs(&rung.plain_f32)),
