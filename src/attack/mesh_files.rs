@@ -39,8 +39,8 @@ pub(super) fn run(data: &[u8]) -> Outcome {
             hits.note(format!("{} read", name.display()));
             sound(&mesh, file.len())?;
             cached(&mesh)?;
-            exported("obj", &mesh, |mesh, to| write_obj(mesh, to))?;
-            exported("ply", &mesh, |mesh, to| write_ply(mesh, to))?;
+            exported("obj", &mesh, write_obj)?;
+            exported("ply", &mesh, write_ply)?;
         }
     }
     Ok(hits)
