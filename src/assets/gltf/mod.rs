@@ -126,8 +126,8 @@ impl Collector<'_> {
             self.passed_over += 1;
             return Ok(());
         };
-        self.admit(positions.count().saturating_add(self.positions.len()))?;
         let points = accessor::reals::<3>(&positions, self.buffers)?;
+        self.admit(points.len().saturating_add(self.positions.len()))?;
         let first = u32::try_from(self.positions.len()).unwrap_or(u32::MAX);
         let place = |p: &[f32; 3]| placed.transform_point3(DVec3::from(p.map(f64::from))) + DVec3::ZERO;
         self.positions.extend(points.iter().map(place));

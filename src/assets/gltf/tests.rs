@@ -184,9 +184,9 @@ fn a_mesh_that_is_shown_more_often_than_the_file_justifies_is_refused() {
     let parsed = parse(document().to_string().as_bytes()).expect("valid").document;
     let buffers = [buffer()];
     let show = |most: usize| Collector { buffers: &buffers, most, ..Collector::new() }.scene(&parsed);
-    // Three squares of four nodes.
-    assert_eq!(show(12), Ok(()));
-    assert_eq!(show(11).map_err(|fault| fault.kind), Err(FaultKind::TooLarge));
+    // Two squares of four nodes.
+    assert_eq!(show(8), Ok(()));
+    assert_eq!(show(7).map_err(|fault| fault.kind), Err(FaultKind::TooLarge));
 }
 
 #[test]
