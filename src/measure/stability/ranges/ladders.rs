@@ -162,6 +162,9 @@ fn double(mesh: &mut IndexedMesh, share: f64, _: &mut Random) {
 
 /// Moves the first of three nodes towards the second, where none of them has been in it before.
 fn approach(mesh: &mut IndexedMesh, share: f64, nodes: &[[u32; 3]]) {
+    if share == 1.0 {
+        return;
+    }
     let mut taken = vec![false; mesh.positions.len()];
     for three in nodes.iter().map(|three| three.map(|n| n as usize)) {
         if three.iter().any(|&n| taken[n]) {
