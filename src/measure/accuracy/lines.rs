@@ -114,7 +114,7 @@ fn measure(cuts: usize, rounds: usize) -> Result<Vec<Curve>, MeasureError> {
             others: vec![
                 Measure::new("no line, or no mesh", "a million"),
                 Measure::new("another line", "a million"),
-                Measure::new("moved within ε", "a million"),
+                Measure::new("moved within ε, or a detour", "a million"),
             ],
             rows: rows.iter().map(|r| row(r, Some(fails(r)), vec![r.3.lost, r.3.wrong, r.3.moved])).collect(),
             planted: failures,
@@ -229,7 +229,7 @@ impl Errors {
                 Err(failure) => {
                     lost += u32::from(failure.is_lost());
                     wrong += u32::from(failure == Failure::WrongConstruct);
-                    moved += u32::from(failure == Failure::Moved);
+                    moved += u32::from(matches!(failure, Failure::Moved | Failure::Detour));
                     continue;
                 }
             };

@@ -61,7 +61,7 @@ pub enum Failure {
     Moved,
     /// The line keeps to the plane, but takes a longer way than the exact one: where several lead on from a node, a walk takes the one ahead.
     Detour,
-    /// The line passes through elements that the plane does not come near.
+    /// The line passes through elements that the plane does not come near, or does not join the picks.
     WrongConstruct,
 }
 
@@ -103,10 +103,20 @@ pub fn judge(
     if section.is_as_short(exact, &way) {
         return Ok(());
     }
-    if way.iter().any(|&at| section.apart(at) > SLACK * epsilon) {
+    let far = SLACK * epsilon;
+    if !joins_the_picks(exact, chain, far) || way.iter().any(|&at| section.apart(at) > far) {
         return Err(Failure::WrongConstruct);
     }
     let longer = (chain.length() - section.length_of(exact)).abs();
     let moved = longer <= SLACK * epsilon * (way.len() + exact.places.len()) as f64;
     Err(if moved { Failure::Moved } else { Failure::Detour })
+}
+
+/// Whether a line has the ends of the exact one, or such as are taken for them within a distance.
+fn joins_the_picks(exact: &Line, chain: &BaselineChain, far: f64) -> bool {
+    let ends = [(exact.places.first(), chain.places.first()), (exact.places.last(), chain.places.last())];
+    ends.into_iter().all(|ends| match ends {
+        (Some(exact), Some((at, position))) => exact.at == *at || exact.point.distance(*position) <= far,
+        _ => false,
+    })
 }
