@@ -53,6 +53,11 @@
 //!   back first.
 //! - **What is done by hand is data** ([`engine::Input`]) until an engine makes an event of it, so that the terminal records for any engine.
 //! - **The terminal asks nothing of the terminal.** Which pictures it can show is told by environment and window size: a question would eat keys.
+//! - **FC is written twice.** `measure::exact` is a slow one in rational arithmetic that shares nothing with the engine but ids; fuzzers, ladders and error
+//!   curves all compare with it.
+//! - **A fuzzer's input is bytes, what it stands for a recording,** so that whatever drives it (libFuzzer, a test, the night) finds the same, and a finding opens
+//!   in the terminal.
+//! - **Instructions are counted by a harness of ours,** since the kept counts come with a reason each, and callgrind needs no library for that.
 //! - **Seeking walks patches;** keyframes and re-running take over where the byte budget let patches go.
 #![warn(missing_docs)]
 
