@@ -55,7 +55,7 @@ pub struct Options {
     pub plant: Option<Plant>,
     /// Skips nothing of what pixels take: maps are painted and frames rendered in full, whether they are needed or not.
     pub everything: bool,
-    /// Pictures will be asked for, at no checkpoint: [`Replay::frame`] and [`Replay::map`].
+    /// Pictures will be asked for, at no checkpoint: [`Replay::shoot`] and [`Replay::map`].
     pub pictures: bool,
 }
 

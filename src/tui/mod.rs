@@ -1,10 +1,10 @@
 //! The terminal: recorded cuts, stepped through, looked at and made.
 //!
-//! **State, update, view.** The [`model`] is all that the screen knows; keys, the mouse and the worker change it in [`update`] and nowhere else; [`view`]
-//! draws it, and draws nothing else. What can be done is a row in the table of [`action`], from which come keys, help, palette and the commands that do
+//! **State, update, view.** The `model` is all that the screen knows; keys, the mouse and the worker change it in `update` and nowhere else; `view`
+//! draws it, and draws nothing else. What can be done is a row in the table of `action`, from which come keys, help, palette and the commands that do
 //! the same. So a test can type every key and look at every screen without a terminal, and with a worker that does one thing after the other.
 //!
-//! **Long work is elsewhere.** The [`worker`] has the replay and its renderer on a thread of its own, and the pictures are encoded on another: the
+//! **Long work is elsewhere.** The `worker` has the replay and its renderer on a thread of its own, and the pictures are encoded on another: the
 //! screen never waits for a cut. Reports of events that have run stay in the model, so walking among them shows each at once, and mesh and
 //! picture follow.
 //!

@@ -2,7 +2,7 @@
 //!
 //! The way is that of Lam 2016, Algorithm 4.2 and §4.2 (Figure 4.8): go from face to face, intersect each edge that was not visited with the plane,
 //! take what lies on it up to ε, call a point that is within ε of a node or an edge incident to it. Its errors that have nothing to do with
-//! rounding are put right, so that what fails here fails for the ε alone ([`walk`]):
+//! rounding are put right, so that what fails here fails for the ε alone (`walk`):
 //!
 //! - from a point at a node it goes on through all faces around the node, not through one;
 //! - where the first pick has two ways to go, it tries both and keeps the shorter one that arrives;
@@ -11,7 +11,7 @@
 //! It is generous, too: the places of the picks are handed over, correctly rounded, where a program of this kind would cast its rays with the same arithmetic.
 //! One implementation serves f32 and f64 ([`Scalar`]). In f32 the mesh itself is rounded to f32, as such a program would store it.
 //!
-//! What comes out is looked at by exact means ([`merge`], [`judge`]): faces that it divides must have area and keep their orientation,
+//! What comes out is looked at by exact means (`merge`, [`judge`]): faces that it divides must have area and keep their orientation,
 //! and its line must pass through the elements that the exact one passes through. A line that passes through others only because ε makes them one
 //! ([`Failure::Moved`]) is told apart: that is what an ε is for.
 

@@ -1,7 +1,7 @@
 //! FC once more, slowly and without any rounding: what the engine's line is compared with, and what its errors are measured from.
 //!
-//! It is written apart from the engine, which lends it ids and nothing else: its own numbers ([`number`]), its own plane, signs and section
-//! graph ([`section`]), its own search ([`search`]). Every coordinate is an integer of one unit, a power of two; a point that is computed is three
+//! It is written apart from the engine, which lends it ids and nothing else: its own numbers (`number`), its own plane, signs and section
+//! graph (`section`), its own search (`search`). Every coordinate is an integer of one unit, a power of two; a point that is computed is three
 //! integers over a fourth. So every sign, every crossing and every comparison of two places is exact, whatever the coordinates.
 //!
 //! What is asked ([`Question`]) are the exact data of a cut: the eye, a point on the ray of each pick, and the element that each pick

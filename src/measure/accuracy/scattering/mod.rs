@@ -4,7 +4,7 @@
 //! **Pictures.** On a wall of skin: an edge between light and dark that runs askew, discs as large as wounds, and the diffuse light of a frame of the
 //! bust.
 //!
-//! **Error.** The root of the mean square of the difference in linear light, in per cent of white; the largest; and FLIP ([`flip`](super::flip)) of
+//! **Error.** The root of the mean square of the difference in linear light, in per cent of white; the largest; and FLIP (`flip`) of
 //! the two pictures as one would see them.
 //!
 //! **Two looks.** `shipped` has the scene's defaults. `profile` takes the published figures at their word: a unit of the kernel's offsets is a

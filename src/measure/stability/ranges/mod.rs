@@ -1,7 +1,7 @@
 //! How far one can go: the same cuts on scenes that are moved away, scaled, turned, shaken, rounded, squeezed and given double points.
 //!
-//! Each of these is a **ladder** ([`ladders`]) with a rung for each size. The cuts are drawn once, on the scene as it is ([`sample`]), and made on every
-//! rung by three programs ([`rung`]): the engine, with every invariant looked at and its line compared with the exact one; and plain f32 and plain f64 with
+//! Each of these is a **ladder** (`ladders`) with a rung for each size. The cuts are drawn once, on the scene as it is (`sample`), and made on every
+//! rung by three programs (`rung`): the engine, with every invariant looked at and its line compared with the exact one; and plain f32 and plain f64 with
 //! an ε, the thesis's way ([`crate::measure::baseline`]). The usable range of each ends before the first rung on which one of its cuts fails. For the engine that
 //! is a broken invariant, a panic, or a line that is not the exact one; a refusal is no failure, and it is told from where on cuts are refused because
 //! nothing can be resolved there any more. For the others it is a cut that comes to no line or to no mesh (**lost**), or to a line through elements farther from the
