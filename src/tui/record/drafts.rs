@@ -1,8 +1,8 @@
 //! Drafts: recordings that are not saved, kept in the user's folder so that no crash and no closed terminal loses them.
 //!
-//! A draft is a recording like any other, `NAME-PROCESS.lancet`, written whole after every event. Two programs never write the same one. Who takes a
-//! draft up again gives it a name of his own first, which of several programs that want it exactly one can do. Whoever was still writing to it
-//! finds it gone, and writes it again with the next event, or when he leaves.
+//! A draft is a recording like any other, `NAME-PROCESS.lancet`, written whole after every event. Two programs never write the same one, and while
+//! that process runs nobody else is offered it. Who takes a draft up again gives it a name of his own first, which of several programs that want
+//! it exactly one can do. Whoever was still writing to it, on another machine say, finds it gone, and writes it again with the next event, or when he leaves.
 
 use std::path::{Path, PathBuf};
 
@@ -81,13 +81,19 @@ impl Drafts {
         if !assets::is_file(draft) {
             return Err(gone());
         }
+        if is_open_elsewhere(draft) {
+            return Err(format!(
+                "{}: is being recorded by another program, which still runs",
+                draft.display()
+            ));
+        }
         let recording = replay::read(draft).map_err(|error| error.to_string())?;
         let own = free(draft.parent().unwrap_or(Path::new("")), &name(recording.scene()));
         let taken = assets::take_file(draft, &own).map_err(|error| format!("not taken up: {error}"))?;
         taken.then_some(Slot(Some(own))).ok_or_else(gone)
     }
 
-    /// All of them but the one that is being written, the newest first.
+    /// All of them but those that are being written, the newest first.
     pub(in crate::tui) fn list(&self, but: Option<&Slot>) -> Result<Vec<Draft>, String> {
         let Some(folder) = self.folder.as_ref().filter(|folder| assets::is_folder(folder)) else {
             return Ok(Vec::new());
@@ -95,7 +101,8 @@ impl Drafts {
         let files = assets::real_folder(folder).and_then(|folder| assets::newest_files(&folder));
         let mut files = files.map_err(|error| error.to_string())?;
         files.retain(|path| {
-            path.extension().is_some_and(|end| end == "lancet") && !but.is_some_and(|slot| slot.is(path))
+            let is_ours = but.is_some_and(|slot| slot.is(path));
+            path.extension().is_some_and(|end| end == "lancet") && !is_ours && !is_open_elsewhere(path)
         });
         Ok(files.into_iter().map(Draft::read).collect())
     }
@@ -122,10 +129,37 @@ impl Draft {
 /// The first name that is not taken, of those that begin so and have this program's number.
 fn free(folder: &Path, name: &str) -> PathBuf {
     let own = format!("{name}-{}", std::process::id());
-    let numbered = (2..).map(|number| format!("{own}-{number}"));
+    let numbered = (2..).map(|number| format!("{own}.{number}"));
     let names = std::iter::once(own.clone()).chain(numbered);
     let mut paths = names.map(|name| folder.join(format!("{name}.lancet")));
     paths.find(|path| !assets::is_file(path)).unwrap_or_default()
+}
+
+/// Whether the program that writes a draft is another one than this, and still runs.
+fn is_open_elsewhere(draft: &Path) -> bool {
+    writer(draft).is_some_and(|process| process != std::process::id() && runs(process))
+}
+
+/// The number of the program that writes a draft, from its name.
+fn writer(draft: &Path) -> Option<u32> {
+    let stem = draft.file_stem()?.to_str()?;
+    let (_, number) = stem.rsplit_once('-')?;
+    number.split('.').next()?.parse().ok()
+}
+
+/// Whether there is a process of that number. One that is another user's may not be asked, and runs.
+#[cfg(unix)]
+fn runs(process: u32) -> bool {
+    use rustix::process::{Pid, test_kill_process};
+
+    let process = i32::try_from(process).ok().and_then(Pid::from_raw);
+    process.is_some_and(|process| test_kill_process(process) != Err(rustix::io::Errno::SRCH))
+}
+
+/// Nobody knows here.
+#[cfg(not(unix))]
+fn runs(_process: u32) -> bool {
+    false
 }
 
 /// What a draft is called by its scene: letters and digits that any file system takes.

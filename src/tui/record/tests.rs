@@ -190,6 +190,28 @@ fn a_draft_is_taken_up_by_one_program_alone() {
     assert_eq!(lines(&mut first).len(), 3);
 }
 
+#[cfg(unix)]
+#[test]
+fn what_a_program_that_runs_is_writing_is_offered_to_nobody_else() {
+    let folder = Folder::new();
+    let mut stage = folder.stage(Some(&folder.script()));
+    press(&mut stage, "r enter right enter");
+    drop(stage);
+    // The same draft, of a program that is there for as long as we want.
+    let mut program = std::process::Command::new("sleep").arg("600").spawn().expect("a program");
+    let path = folder.at(&format!("drafts/square-{}.2.lancet", program.id()));
+    assert!(assets::take_file(&folder.drafts().swap_remove(0), &path).expect("renamed"));
+    let mut other = folder.stage(None);
+    assert!(other.model().kept.drafts.is_empty());
+    other.model().ask(Ask::Open(path.clone()));
+    other.settle();
+    assert!(said(&mut other).contains("which still runs"), "{}", said(&mut other));
+    assert_eq!(folder.drafts(), [path.clone()]);
+    program.kill().and_then(|()| program.wait()).expect("it has ended");
+    let mut next = folder.stage(None);
+    assert_eq!(next.model().kept.drafts.iter().map(|draft| &draft.path).collect::<Vec<_>>(), [&path]);
+}
+
 #[test]
 fn what_is_still_being_recorded_is_kept_though_another_program_takes_its_draft_up() {
     let folder = Folder::new();
