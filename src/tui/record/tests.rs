@@ -206,7 +206,7 @@ fn what_a_program_that_runs_is_writing_is_offered_to_nobody_else() {
     other.model().ask(Ask::Open(path.clone()));
     other.settle();
     assert!(said(&mut other).contains("which still runs"), "{}", said(&mut other));
-    assert_eq!(folder.drafts(), [path.clone()]);
+    assert_eq!(folder.drafts(), std::slice::from_ref(&path));
     program.kill().and_then(|()| program.wait()).expect("it has ended");
     let mut next = folder.stage(None);
     assert_eq!(next.model().kept.drafts.iter().map(|draft| &draft.path).collect::<Vec<_>>(), [&path]);
