@@ -7,7 +7,7 @@ struct Reach {
     across: u32,
     // How many taps.
     count: u32,
-    // Pixels that the kernel reaches at depth 1, both ways.
+    // Pixels in the look's width at depth 1.
     pixels: f32,
     // The same on the surface, model units.
     width: f32,
@@ -18,7 +18,7 @@ struct Reach {
 @group(0) @binding(1) var light: texture_2d<f32>;
 @group(0) @binding(2) var depths: texture_2d<f32>;
 @group(0) @binding(3) var discolor: texture_2d<f32>;
-// The kernel: weights, and beside them the offset as a part of the reach.
+// The kernel: weights, and beside them the offset as a part of the width.
 @group(0) @binding(4) var<uniform> taps: array<vec4f, 41>;
 @group(1) @binding(0) var<storage, read> tiles: array<u32>;
 

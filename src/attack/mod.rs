@@ -32,7 +32,7 @@ use std::any::Any;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-pub use trial::judge;
+use crate::recording::{AnyRecording, SceneRef};
 
 /// A way to attack the program.
 #[derive(Clone, Copy, Debug)]
@@ -167,6 +167,16 @@ pub fn target(name: &str) -> Option<&'static Target> {
 /// Runs bytes on the target of a name; `None` where there is none.
 pub fn run(name: &str, data: &[u8]) -> Option<Outcome> {
     target(name).map(|target| (target.run)(data))
+}
+
+/// The name of the oracle that a recording breaks, if it breaks one. Of scenes in files nothing is said.
+pub fn judge(recording: &AnyRecording) -> Option<String> {
+    let AnyRecording::Wound(recording) = recording;
+    if matches!(recording.scene, SceneRef::Mesh(_) | SceneRef::File(_)) {
+        return None;
+    }
+    let judged = catch_unwind(AssertUnwindSafe(|| trial::judge(recording)));
+    judged.map_or(Some("panic".into()), |outcome| Some(outcome.err()?.check))
 }
 
 impl Target {

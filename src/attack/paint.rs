@@ -114,7 +114,7 @@ impl Case {
     }
 
     fn judge(&self) -> Result<Hits, Box<Finding>> {
-        let mut hits = super::judge(&self.recording())?;
+        let mut hits = super::trial::judge(&self.recording())?;
         let Some(trial) = Trial::begin(self.recording().with_events(Vec::new()), Look::Nothing) else {
             return Err(Finding::new("scene", "a drawn sheet is refused"));
         };

@@ -206,7 +206,7 @@ impl Trial {
 }
 
 /// Runs a recording, and looks at it with every oracle.
-pub fn judge(recording: &Recording<WoundEvent>) -> Outcome {
+pub(super) fn judge(recording: &Recording<WoundEvent>) -> Outcome {
     let Some(mut trial) = Trial::begin(recording.with_events(Vec::new()), Look::Everything) else {
         return Err(Finding::new("scene", format!("there is no {}", recording.scene)));
     };

@@ -145,7 +145,7 @@ pub enum Law {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Scattering {
-    /// How far from its centre the kernel reaches on the surface, w, centimetres.
+    /// How far from its centre the kernel reaches on the surface, w, centimetres. With more than 19 samples it reaches half as far again.
     pub width_cm: f32,
     /// How much of the light scatters, t, a channel.
     pub strength: [f32; 3],

@@ -12,9 +12,7 @@ use crate::verify;
 pub(super) fn run(typed: &Reduce, console: &mut Console<'_>) -> Done {
     let case = Case::open(&typed.recording)?;
     let Some(failure) = failure(&case, &case.recording)? else {
-        return Err(Failure::about(&typed.recording)(
-            &"no invariant breaks in it: there is nothing to reduce",
-        ));
+        return Err(Failure::about(&typed.recording)(&"nothing breaks in it: there is nothing to reduce"));
     };
     let mut reduced = case.recording.visit(Reducer { case: &case, failure: &failure, console });
     let (after, before) = (reduced.event_count(), case.recording.event_count());
@@ -24,9 +22,19 @@ pub(super) fn run(typed: &Reduce, console: &mut Console<'_>) -> Done {
     Ok(Status::Verified)
 }
 
-/// How a recording fails: the name of the first invariant that breaks.
+/// How a recording fails: the name of the first invariant that breaks, else that of an oracle of the fuzzers.
 fn failure(case: &Case, recording: &AnyRecording) -> Result<Option<String>, Failure> {
-    Ok(verify::failure(case.replay(recording, Options::default(), None)?))
+    let broken = verify::failure(case.replay(recording, Options::default(), None)?);
+    Ok(broken.or_else(|| oracle(recording)))
+}
+
+/// The oracle that a recording breaks, if there are oracles in this program.
+fn oracle(recording: &AnyRecording) -> Option<String> {
+    #[cfg(feature = "attack")]
+    let broken = crate::attack::judge(recording);
+    #[cfg(not(feature = "attack"))]
+    let broken = None;
+    broken
 }
 
 struct Reducer<'a, 'c, 'w> {

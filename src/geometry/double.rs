@@ -49,6 +49,12 @@ impl Double {
         self.high
     }
 
+    /// The sum of two floats.
+    #[inline]
+    pub fn sum(a: f64, b: f64) -> Self {
+        two_sum(a, b)
+    }
+
     /// The difference of two floats.
     #[inline]
     pub fn difference(a: f64, b: f64) -> Self {

@@ -9,6 +9,8 @@ use std::cmp::Ordering;
 
 use num_bigint::BigInt;
 
+use super::double::{Double, DoubleVec};
+
 /// What a formula is evaluated over.
 pub trait Number: Clone {
     /// The number of a float, which must be finite.
@@ -110,6 +112,22 @@ impl Dyadic {
         self.mantissa.cmp(&BigInt::ZERO)
     }
 
+    /// The first 106 binary digits, times 2^`scale`.
+    fn doubled(&self, scale: i64) -> Double {
+        let beyond = self.mantissa.bits().saturating_sub(106);
+        let digits = u128::try_from(self.mantissa.magnitude() >> beyond).unwrap_or(u128::MAX);
+        // What is scaled to less than a float can hold is nothing beside the largest.
+        let exponent = (self.exponent + beyond as i64 + scale).clamp(-2000, 2000) as i32;
+        let sign = if self.sign() == Ordering::Less { -1.0 } else { 1.0 };
+        let part = |digits: u128, exponent| libm::ldexp(sign * digits as f64, exponent);
+        Double::sum(part(digits >> 53, exponent + 53), part(digits & ((1 << 53) - 1), exponent))
+    }
+
+    /// How many binary digits there are before the point.
+    fn magnitude(&self) -> i64 {
+        self.mantissa.bits() as i64 + self.exponent
+    }
+
     /// Both mantissas over the smaller exponent.
     fn aligned(&self, other: &Self) -> (BigInt, BigInt, i64) {
         let exponent = self.exponent.min(other.exponent);
@@ -165,6 +183,13 @@ pub fn cross<N: Number>(a: &Vector<N>, b: &Vector<N>) -> Vector<N> {
     [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
 
+/// A vector's direction with doubled digits: the vector times the power of two that puts its largest component between a half and one.
+pub fn direction(v: &Vector<Dyadic>) -> DoubleVec {
+    let others_than_zero = v.iter().filter(|x| x.sign() != Ordering::Equal);
+    let largest = others_than_zero.map(Dyadic::magnitude).max().unwrap_or(0);
+    [0, 1, 2].map(|i| v[i].doubled(-largest))
+}
+
 /// The dot product.
 pub fn dot<N: Number>(a: &Vector<N>, b: &Vector<N>) -> N {
     a[0].mul(&b[0]).add(&a[1].mul(&b[1])).add(&a[2].mul(&b[2]))
@@ -189,6 +214,22 @@ mod tests {
             let product = |v: &[f64]| v.iter().fold(N::of(1.0), |p, &v| p.mul(&N::of(v)));
             product(self.0).sub(&product(self.1))
         }
+    }
+
+    #[test]
+    fn a_direction_has_all_its_digits_however_small_the_vector() {
+        use crate::geometry::double;
+        let tiny = libm::ldexp(1.0, -600);
+        let v = [1.0, -3.0, 0.0].map(|x| Dyadic::of(x * tiny));
+        let v = v.map(|x| x.mul(&Dyadic::of(1.0 + f64::EPSILON)).mul(&Dyadic::of(tiny)));
+        let found = direction(&v);
+        assert_eq!(double::rounded(found).to_array(), [0.25, -0.75, 0.0].map(|x| x * (1.0 + f64::EPSILON)));
+        // Half of it, and a last digit that one float alone would lose.
+        let long = Dyadic::of(1.0).add(&Dyadic::of(libm::ldexp(1.0, -100)));
+        let [half, ..] = direction(&[long, Dyadic::of(0.0), Dyadic::of(0.0)]);
+        let [one, less, none] = [1.0, -0.5, 0.0].map(|x| Double::sum(x, 0.0));
+        assert_eq!(double::dot([half, one, none], [one, less, none]).value(), libm::ldexp(1.0, -101));
+        assert_eq!(direction(&[0.0; 3].map(Dyadic::of)).map(Double::value), [0.0; 3]);
     }
 
     #[test]

@@ -27,6 +27,39 @@ pub fn distance_to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
     p.distance(if t.is_nan() { a } else { a + ab * t })
 }
 
+/// The same within a part of an ulp of the distance, where [`distance_to_segment`] is within some ulps of the coordinates: for distances of that size.
+pub fn fine_distance_to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
+    let along = b - a;
+    let t = (p - a).dot(along) / along.length_squared();
+    if !(0.0..=1.0).contains(&t) {
+        return p.distance(a).min(p.distance(b));
+    }
+    let across = double::rounded(double::cross(double::difference(p, a), double::difference(b, a)));
+    // Scaled first: the square of a tiny product would underflow.
+    let largest = across.abs().max_element();
+    if largest > 0.0 { largest / along.length() * (across / largest).length() } else { 0.0 }
+}
+
+/// Below this part of the product of two sides their cross product has lost too many digits to be a direction.
+const LOST: f64 = 1e-6;
+
+/// Unit normal of a triangle, within some 1e-10; `None` only where it has no area at all, or is not finite.
+pub fn unit_normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
+    let (u, v) = (b - a, c - a);
+    let normal = u.cross(v);
+    let largest = |v: DVec3| v.abs().max_element();
+    let normal = match largest(normal) > LOST * largest(u) * largest(v) {
+        true => normal,
+        false if !normal.is_finite() => return None,
+        false => double::rounded(exact::direction(&exact::cross(
+            &exact::difference(b, a),
+            &exact::difference(c, a),
+        ))),
+    };
+    // Scaled first: the square of a tiny normal would underflow.
+    (normal / largest(normal)).try_normalize()
+}
+
 /// Distance from a point to a triangle's plane; to its nearest corner where the triangle has no area.
 ///
 /// With doubled digits: in floats alone the normal of a sliver would be off by more than what is measured.

@@ -84,7 +84,7 @@ impl ForEngine for Begin {
 impl AnyRecording {
     /// A recording of nothing yet, for an engine by its name. Its hashes are not known. An error says why there is none.
     pub fn begin(engine: &str, scene: SceneRef, viewport: [u32; 2]) -> Result<Self, String> {
-        rules::viewport(viewport).map_err(|what| format!("viewport: {what}"))?;
+        rules::head(&scene, viewport)?;
         let none = || format!("there is no engine {}", quoted(engine));
         for_engine(engine, Begin { scene, viewport }).ok_or_else(none)
     }

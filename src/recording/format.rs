@@ -88,9 +88,9 @@ fn read_head(reader: &mut Reader<'_>) -> Result<Head, Fault> {
         return Err(reader.fault(Cause::WrongKind(frame.kind)));
     }
     let head: Head = decode(reader, &frame)?;
-    match rules::viewport(head.viewport) {
+    match rules::head(&head.scene, head.viewport) {
         Ok(()) => Ok(head),
-        Err(what) => Err(reader.fault(Cause::Invalid(format!("viewport: {what}")))),
+        Err(what) => Err(reader.fault(Cause::Invalid(what))),
     }
 }
 

@@ -84,7 +84,7 @@ impl<E: Event> Recording<E> {
 
     /// What is wrong with it, if anything: the place (`viewport`, `events[3].cut.from`), then what.
     pub fn validate(&self) -> Result<(), String> {
-        rules::viewport(self.viewport).map_err(|what| format!("viewport: {what}"))?;
+        rules::head(&self.scene, self.viewport)?;
         let mut names = rules::Names::default();
         self.events.iter().enumerate().try_for_each(|(i, keyed)| {
             names.admit(&keyed.event).map_err(|what| format!("events[{i}].{what}"))

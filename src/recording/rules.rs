@@ -2,6 +2,7 @@
 
 use rustc_hash::FxHashSet;
 
+use super::SceneRef;
 use crate::engine::{Control, Event};
 use crate::report::quoted;
 
@@ -16,6 +17,24 @@ pub(super) const MAX_NAME: usize = 64;
 pub(super) fn viewport(sides: [u32; 2]) -> Result<(), String> {
     match sides.iter().find(|side| !(1..=MAX_SIDE).contains(side)) {
         Some(side) => Err(format!("a side of {side} pixels is not within 1 to {MAX_SIDE}")),
+        None => Ok(()),
+    }
+}
+
+/// Looks at what comes before the events.
+pub(super) fn head(of: &SceneRef, sides: [u32; 2]) -> Result<(), String> {
+    scene(of).map_err(|what| format!("scene.{what}"))?;
+    viewport(sides).map_err(|what| format!("viewport: {what}"))
+}
+
+/// Looks at a mesh that is written out: a script can hold no number that is not finite.
+fn scene(scene: &SceneRef) -> Result<(), String> {
+    let SceneRef::Inline(mesh) = scene else { return Ok(()) };
+    if let Some(i) = mesh.nodes.iter().position(|at| at.iter().any(|v| !v.is_finite())) {
+        return Err(format!("inline.nodes[{i}]: {:?} is not a place", mesh.nodes[i]));
+    }
+    match mesh.uv.iter().position(|uv| uv.iter().any(|v| !v.is_finite())) {
+        Some(i) => Err(format!("inline.uv[{i}]: {:?} is not a place", mesh.uv[i])),
         None => Ok(()),
     }
 }

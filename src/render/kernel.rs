@@ -3,7 +3,8 @@
 //! n samples lie closer at the middle: x_u = −r + 2 r i/(n − 1), x = r sign(x_u)(x_u/r)², with r = 2 up to 19 samples, else 3. The profile
 //! p(x) = Σ w G(v, x/(f + 0.001)), G(v, r) = exp(−r²/2v)/2πv, takes Table B.1's red weights for every channel, and leaves the first
 //! Gaussian out (light that hardly scatters). A weight is p(x) times half the distance to both neighbours, normalised to the
-//! sum 1, times the strength t; 1 − t more at the centre.
+//! sum 1, times the strength t; 1 − t more at the centre. A look's width is that of two units, however far the kernel reaches: with more samples
+//! the same look scatters as far.
 //!
 //! Computed in f64 with libm, given in f32. We depart from the thesis where it contradicts itself: five weights stand beside five
 //! variances, and the centre is counted once.
@@ -32,10 +33,13 @@ pub const PROFILE: [Gaussian; 6] = [
 /// The most samples that a kernel has.
 pub const MOST_SAMPLES: u32 = 41;
 
+/// Offsets that a look's width is as wide as.
+const WIDTH: f64 = 2.0;
+
 /// A sample of the kernel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tap {
-    /// Where, as a part of the kernel's reach: x/r, from −1 to 1.
+    /// Where, as a part of the look's width: x/2, from −1 to 1, or from −1.5 to 1.5.
     pub offset: f32,
     /// How much of each channel.
     pub weight: [f32; 3],
@@ -46,9 +50,8 @@ pub struct Tap {
 pub fn kernel(scattering: &Scattering) -> Vec<Tap> {
     let offsets = offsets(scattering.samples);
     let weights = [0, 1, 2].map(|c| weights(&offsets, scattering.falloff[c], scattering.strength[c]));
-    let range = offsets[offsets.len() - 1];
     let tap =
-        |(i, x): (usize, &f64)| Tap { offset: (x / range) as f32, weight: [0, 1, 2].map(|c| weights[c][i]) };
+        |(i, x): (usize, &f64)| Tap { offset: (x / WIDTH) as f32, weight: [0, 1, 2].map(|c| weights[c][i]) };
     offsets.iter().enumerate().map(tap).collect()
 }
 
@@ -103,6 +106,8 @@ mod tests {
     #[test]
     fn more_samples_reach_further() {
         assert_eq!([offsets(19)[18], offsets(21)[20], offsets(41)[40]], [2.0, 3.0, 3.0]);
+        let ends = [19, 21, 41].map(|samples| kernel(&of(samples))[0].offset);
+        assert_eq!(ends, [-1.0, -1.5, -1.5]);
     }
 
     #[test]

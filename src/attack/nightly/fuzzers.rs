@@ -14,8 +14,10 @@ use crate::attack::Target;
 
 /// Seconds after which an input counts as one that does not end.
 const SLOWEST: u32 = 20;
-/// Most that one input may set aside at once, MB; inputs are of some kilobytes.
+/// Most memory that a fuzzer may have used, MB; inputs are of some kilobytes.
 const MOST_MB: u32 = 512;
+/// Without a sanitizer, which looks for what safe code cannot do and makes an input cost several times as much.
+const PLAIN: [&str; 2] = ["--sanitizer", "none"];
 /// Seconds within which the planted bug must be found.
 const CANARY_SECONDS: u32 = 60;
 /// What libFuzzer says before the path of an input that broke something.
@@ -38,8 +40,9 @@ impl Tool {
             _ => return Err("no cargo-fuzz".into()),
         }
         progress("building the fuzz targets");
-        let built =
-            tool.cargo(&["build", "--fuzz-dir", &tool.folder()]).map_err(|error| error.to_string())?;
+        let built = tool
+            .cargo(&[&["build", "--fuzz-dir", &tool.folder()], &PLAIN[..]].concat())
+            .map_err(|error| error.to_string())?;
         match built.status.success() {
             true => Ok(tool),
             false => Err(format!("no cargo-fuzz that builds: {}", last_line(&text(&built)))),
@@ -58,8 +61,9 @@ impl Tool {
     /// Runs the program with the planted bug until it is found; a minute without it is a failure. It is built apart, so that the other
     /// targets need not be built again.
     pub(super) fn canary(&self, night: &Night, progress: Progress<'_>) -> Part {
-        let target = self.fuzz.join("target").join(CANARY).display().to_string();
-        let options = ["--fuzz-dir", &self.folder(), "--target-dir", &target, "--features", CANARY];
+        let (folder, apart) = (self.folder(), self.fuzz.join("target").join(CANARY).display().to_string());
+        let mut options = vec!["--fuzz-dir", &folder, "--target-dir", &apart, "--features", CANARY];
+        options.extend(PLAIN);
         progress("building the program with the planted bug");
         match self.cargo(&[&["build"], &options[..], &[CANARY]].concat()) {
             Ok(built) if built.status.success() => {}
@@ -71,7 +75,7 @@ impl Tool {
         let (limit, stats) = (format!("-max_total_time={CANARY_SECONDS}"), "-print_final_stats=1");
         let findings = night.findings.join(CANARY);
         let mut command = Command::new("cargo");
-        command.args(["+nightly", "fuzz", "run"]).args(options).args([CANARY, "--", &seed, &limit, stats]);
+        command.args(["+nightly", "fuzz", "run"]).args(&options).args([CANARY, "--", &seed, &limit, stats]);
         command.env("LANCET_FINDINGS", &findings).stdin(Stdio::null());
         match command.output() {
             Ok(output) => canary_of(&part_of(output.status.success(), &text(&output)), clock.elapsed()),
@@ -87,7 +91,8 @@ impl Tool {
             return Part::unable(error.to_string());
         }
         let mut command = Command::new("cargo");
-        command.args(["+nightly", "fuzz", "run", "--fuzz-dir"]).arg(&self.fuzz).arg(target.name).arg(&new);
+        command.args(["+nightly", "fuzz", "run", "--fuzz-dir"]).arg(&self.fuzz).args(PLAIN);
+        command.arg(target.name).arg(&new);
         if assets::is_folder(&old) {
             command.arg(&old);
         }
@@ -97,7 +102,7 @@ impl Tool {
             format!("-seed={}", night.seed as u32 | 1),
             format!("-max_total_time={seconds}"),
             format!("-timeout={SLOWEST}"),
-            format!("-malloc_limit_mb={MOST_MB}"),
+            format!("-rss_limit_mb={MOST_MB}"),
             "-print_final_stats=1".into(),
         ]);
         command.env("LANCET_FINDINGS", &night.findings).stdin(Stdio::null());

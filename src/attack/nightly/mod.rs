@@ -5,7 +5,7 @@
 //! | verify | every recording against its goldens | as long as it takes |
 //! | stability | random and hostile cuts, in rounds with a seed each | an eighth of what is left |
 //! | canary | a program with a planted bug, which must be found: else the night does not count | a minute at most |
-//! | fuzz TARGET | libFuzzer, or a [`super::storm`] where there is none | the rest, in equal shares |
+//! | fuzz TARGET | libFuzzer, or a [`super::storm`] where there is none; as many at a time as there are jobs | the rest, in equal shares |
 //! | reached | the corpora, old and new, run again: what the night reached | as long as it takes |
 //! | matrix | configurations and degenerate cases among that, and drawn until none is missing | an eighth |
 //!
@@ -18,7 +18,10 @@ mod fuzzers;
 mod parts;
 mod report;
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 pub use report::{NightFinding, NightReport, Part, Verdict};
@@ -33,7 +36,7 @@ pub struct Night {
     pub time: Duration,
     /// What all chance comes from.
     pub seed: u64,
-    /// How many cuts or recordings at a time.
+    /// How many recordings, cuts or targets at a time.
     pub jobs: usize,
     /// Recordings to verify, and folders of them.
     pub recordings: Vec<PathBuf>,
@@ -51,8 +54,8 @@ const SMALL_SHARE: u32 = 8;
 /// The target that has a bug to find.
 const CANARY: &str = "canary";
 
-/// Told what is being done.
-pub type Progress<'a> = &'a dyn Fn(&str);
+/// Told what is being done, from any thread.
+pub type Progress<'a> = &'a (dyn Fn(&str) + Sync);
 
 impl Night {
     /// Does it all. What breaks ends its part, and no other.
@@ -67,7 +70,7 @@ impl Night {
             Ok(tool) => tool.canary(self, progress),
             Err(why) => Part::skipped(format!("{why}: no second program with the bug in it")),
         }));
-        self.fuzz_all(&tool, clock, small, progress, &mut report);
+        report.parts.extend(self.fuzz_all(&tool, clock, small, progress));
         let mut reached = Reached::default();
         report.parts.push(timed("reached", progress, || parts::reached(self, &mut reached)));
         report.parts.push(timed("matrix", progress, || {
@@ -80,26 +83,39 @@ impl Night {
         report
     }
 
-    /// Every target in turn. What one leaves over of its share is shared by those after it.
+    /// Every target, as many at a time as there are jobs. What one leaves over of its share is shared by those after it.
     fn fuzz_all(
         &self,
         tool: &Result<fuzzers::Tool, String>,
         clock: Instant,
         reserved: Duration,
         progress: Progress<'_>,
-        report: &mut NightReport,
-    ) {
+    ) -> Vec<Part> {
         // Without its bug the canary is another target's double.
         let targets: Vec<&'static Target> = TARGETS.iter().filter(|target| target.name != CANARY).collect();
-        for (number, &target) in targets.iter().enumerate() {
+        let jobs = self.jobs.clamp(1, targets.len());
+        let one = |number: usize| {
+            let target = *targets.get(number)?;
             let left = self.time.saturating_sub(clock.elapsed() + reserved);
-            let share = left / u32::try_from(targets.len() - number).unwrap_or(1);
-            let name = format!("fuzz {}", target.name);
-            report.parts.push(timed(&name, progress, || match tool {
+            let share = left / u32::try_from((targets.len() - number).div_ceil(jobs)).unwrap_or(1);
+            Some(timed(&format!("fuzz {}", target.name), progress, || match tool {
                 Ok(tool) => tool.fuzz(self, target, share),
                 Err(why) => parts::storm(self, target, share, why),
-            }));
-        }
+            }))
+        };
+        let (next, done) = (AtomicUsize::new(0), Mutex::new(BTreeMap::new()));
+        std::thread::scope(|scope| {
+            for _ in 0..jobs {
+                scope.spawn(|| {
+                    loop {
+                        let number = next.fetch_add(1, Ordering::Relaxed);
+                        let Some(part) = one(number) else { return };
+                        done.lock().unwrap_or_else(PoisonError::into_inner).insert(number, part);
+                    }
+                });
+            }
+        });
+        done.into_inner().unwrap_or_else(PoisonError::into_inner).into_values().collect()
     }
 }
 
@@ -130,7 +146,7 @@ mod tests {
         let night = Night {
             time: Duration::from_millis(600),
             seed: 4,
-            jobs: 1,
+            jobs: 2,
             recordings: vec!["recordings/wound/both-picks-on-one-edge.lancet".into()],
             verify: VerifyOptions::default(),
             fuzz: folder.path().join("none"),

@@ -38,10 +38,9 @@ pub(super) fn look(
     require(outcomes(&plain) == outcomes(&paranoid), "session-paranoid", || {
         "looking changes outcomes".into()
     })?;
-    for budget_bytes in [0, 1 << 14, Options::default().budget_bytes] {
-        seek(ground, recording, budget_bytes, &digest_here)?;
-    }
-    Ok(())
+    // One of them: by all three a recording would be run for most of the time for the third time.
+    let budgets = [0, 1 << 14, Options::default().budget_bytes];
+    seek(ground, recording, budgets[(recording.seed % budgets.len() as u64) as usize], &digest_here)
 }
 
 fn run(ground: &Ground, recording: &Recording<WoundEvent>, options: Options) -> Session<Wound> {

@@ -1,8 +1,8 @@
 //! The cutting plane: the eye and a point on each pick's ray, and nothing else (exact once they are rounded).
 //!
 //! Lam 2016, §4.1.2 cuts with a quadrilateral between the near and far plane; here it is the whole plane, and what bounds the line is
-//! the surface. Which side of the plane a node is on is an exact sign. Heights over it are computed with doubled digits, so that a crossing
-//! is rounded once.
+//! the surface. Which side of the plane a node is on is an exact sign. Its normal is computed exactly, once for each cut, since of three points
+//! that lie nearly on a line doubled digits may leave nothing; heights over it have doubled digits, so that a crossing is rounded once.
 
 use std::cmp::Ordering;
 
@@ -10,6 +10,7 @@ use glam::DVec3;
 use rustc_hash::FxHashSet;
 
 use crate::geometry::double::{self, Double, DoubleVec};
+use crate::geometry::exact;
 use crate::geometry::predicates::{Sign, collinear, orient3d};
 use crate::mesh::{Mesh, NodeId};
 
@@ -31,9 +32,8 @@ impl CutPlane {
         if collinear(eye, a, b) {
             return None;
         }
-        let normal = double::cross(double::difference(a, eye), double::difference(b, eye));
+        let normal = exact::direction(&exact::cross(&exact::difference(a, eye), &exact::difference(b, eye)));
         let rounded = double::rounded(normal);
-        // Scaled first: the normal of a small wedge may be tiny.
         let unit = (rounded / rounded.abs().max_element()).try_normalize()?;
         Some(Self { points, normal, unit, snapped: FxHashSet::default() })
     }
@@ -75,9 +75,7 @@ impl CutPlane {
 
     /// Distance to the plane, model units.
     pub fn distance(&self, point: DVec3) -> f64 {
-        let length = double::rounded(self.normal);
-        let scale = length.abs().max_element();
-        (self.height(point).value() / scale).abs() / (length / scale).length()
+        self.height(point).value().abs() / double::rounded(self.normal).length()
     }
 
     /// Where a segment whose ends lie on different sides meets the plane: its parameter and position, within an ulp or two.

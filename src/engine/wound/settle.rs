@@ -15,7 +15,7 @@ use super::form::{common_face, trace};
 use super::pattern::{Child, Shape, altitude};
 use super::pick::Picked;
 use super::plane::CutPlane;
-use crate::geometry::{distance_to_segment, ulp};
+use crate::geometry::{fine_distance_to_segment, ulp};
 use crate::mesh::refine::{FaceSplit, Refinement, Site};
 use crate::mesh::{EdgeId, FaceId, Mesh};
 use crate::report::Rejection;
@@ -259,7 +259,7 @@ fn onto_border(mesh: &Mesh, plane: &CutPlane, face: FaceId, point: &Point, resol
         let nodes = mesh.edge(e).nodes;
         let [a, b] = nodes.map(|n| mesh.position(n));
         let sides = nodes.map(|n| plane.side_of(mesh, n));
-        sides[0] == sides[1].reverse() && distance_to_segment(point.position, a, b) <= resolution
+        sides[0] == sides[1].reverse() && fine_distance_to_segment(point.position, a, b) <= resolution
     })?;
     let [a, b] = mesh.edge(near).nodes.map(|n| mesh.position(n));
     let t = ((point.position - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);

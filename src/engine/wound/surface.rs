@@ -32,7 +32,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::chain::{At, Chain};
 use super::flat::{Flat, sides_to_line, to_line, triangle_to_line, unfold};
-use crate::geometry::distance_to_segment;
+use crate::geometry::{distance_to_segment, unit_normal};
 use crate::mesh::{EdgeId, FaceId, Mesh, NodeId, Surface};
 
 /// The part of a line in one skin face.
@@ -157,11 +157,11 @@ struct LinkFrame {
 
 impl LinkFrame {
     fn new(mesh: &Mesh, chain: &Chain, link: &SkinLink) -> Option<Self> {
-        let [a, b, c] = mesh.triangle(link.face);
+        let normal = unit_normal(mesh.triangle(link.face))?;
         let [from, to] = [link.link, link.link + 1].map(|i| chain.points[i].position);
         // Scaled first: the square of a tiny normal would underflow.
         let scaled = |v: DVec3| (v / v.abs().max_element()).try_normalize();
-        let (normal, along) = (scaled((b - a).cross(c - a))?, scaled(to - from)?);
+        let along = scaled(to - from)?;
         let left = scaled(normal.cross(along))?;
         Some(Self { origin: from, start: link.start, length: link.length, along, left })
     }

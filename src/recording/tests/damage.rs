@@ -142,6 +142,13 @@ fn forged_values_are_looked_at_as_a_scripts_are() {
     payload[viewport..viewport + 4].fill(0);
     assert!(matches!(forged(&[(Kind::Scene, &payload)]).cause, Cause::Invalid(_)));
     assert_eq!(narrow.viewport(), [1, 16384]);
+    // An inline mesh of no nodes, no faces, and one corner in the texture.
+    let uv =
+        |v: f32| [&[3, 0, 0, 0][..], &[0; 16], &[1, 0, 0, 0, 0, 0, 0, 0], &v.to_le_bytes(), &[0; 4]].concat();
+    let inline = |v: f32| [&uv(v)[..], &[0; 64], &[1, 0, 0, 0, 1, 0, 0, 0], &[0; 8]].concat();
+    assert!(matches!(forged(&[(Kind::Scene, &inline(0.5))]).cause, Cause::CutOff { .. }));
+    let error = forged(&[(Kind::Scene, &inline(f32::NAN))]);
+    assert!(error.to_string().contains("scene.inline.uv[0]: [NaN, 0.0] is not a place"), "{error}");
 }
 
 #[test]

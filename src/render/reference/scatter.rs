@@ -15,9 +15,9 @@ use crate::render::{kernel, sat};
 
 /// What both passes know.
 pub(crate) struct Scatter {
-    /// Offsets from −1 to 1, and weights; nothing of a.
+    /// Offsets as a part of the width, and weights; nothing of a.
     taps: Vec<(f32, [f32; 4])>,
-    /// The kernel's reach on the surface, model units.
+    /// The look's width on the surface, model units.
     width: f32,
     /// Pixels in a model unit at depth 1.
     focal: f32,

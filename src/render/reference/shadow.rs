@@ -3,6 +3,9 @@
 //! A map holds the nearest surface's depth along the light's axis at each texel's centre. **Percentage-closer filtering**: filter² looks, one
 //! texel apart, are averaged, each bilinear between four comparisons. The looks overlap, so that all of them together are (filter + 1)²
 //! comparisons, weighted (1 − f, 1, …, 1, f)/filter along both axes, f the part of a texel by which the first look is off a centre.
+//!
+//! A point is held 1.5 texels off the surface, and half a texel nearer to the light, so that the surface does not shadow itself. A filter wider than 3 x 3
+//! looks further along a sloping surface, and its points are held off as much further.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -104,6 +107,11 @@ impl ShadowMap {
     }
 }
 
+/// How many times as far as with three looks along a side a point is held off the surface.
+fn held_off(filter: u32) -> f64 {
+    (0.25 * f64::from(filter.clamp(1, 9) + 1)).max(1.0)
+}
+
 /// A shadow map for points that are given relative to a place: far from the origin their own differences keep their digits.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ShadowsAround<'a> {
@@ -117,10 +125,11 @@ impl ShadowsAround<'_> {
         let lens = &self.lens;
         let size = f64::from(lens.size[0]);
         let texel = 2.0 * lens.see(point).z * self.map.key.tan_half / size;
-        let seen = lens.see(point + normal * (1.5 * texel));
+        let off = texel * held_off(filter);
+        let seen = lens.see(point + normal * (1.5 * off));
         let place = lens.place(seen).filter(|place| place.iter().all(|x| x.abs() < 2.0 * size));
         let Some(place) = place else { return 1.0 };
-        self.map.filtered(place, filter, (seen.z - 0.5 * texel) as f32)
+        self.map.filtered(place, filter, (seen.z - 0.5 * off) as f32)
     }
 
     /// How far along its axis light has gone through the model before it comes to a point; `None` outside of the map.

@@ -2,13 +2,13 @@
 
 use std::cmp::Ordering;
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use super::{largest, position_bound};
 use crate::engine::wound::chain::{At, Chain, Point};
 use crate::engine::wound::plane::CutPlane;
 use crate::engine::wound::state::{Cut, State};
-use crate::geometry::{distance_to_plane, distance_to_segment, double};
+use crate::geometry::{distance_to_plane, distance_to_segment, fine_distance_to_segment};
 use crate::mesh::{FaceId, Mesh};
 use crate::report::Check;
 
@@ -97,25 +97,12 @@ fn edges(mesh: &Mesh, chain: &Chain, bound: f64) -> Check {
     let off = chain.points.iter().map(|p| match p.at {
         At::Edge(e) => {
             let [a, b] = mesh.edge(e).nodes.map(|n| mesh.position(n));
-            distance_to_edge(p.position, a, b)
+            fine_distance_to_segment(p.position, a, b)
         }
         At::Node(n) => mesh.position(n).distance(p.position),
         At::Face(_) => 0.0,
     });
     Check::at_most("edge-distance", largest(off), bound)
-}
-
-/// With doubled digits: in floats alone the foot of the perpendicular would be rounded by as much as is measured.
-fn distance_to_edge(p: DVec3, a: DVec3, b: DVec3) -> f64 {
-    let along = b - a;
-    let t = (p - a).dot(along) / along.length_squared();
-    if !(0.0..=1.0).contains(&t) {
-        return p.distance(a).min(p.distance(b));
-    }
-    let across = double::rounded(double::cross(double::difference(p, a), double::difference(b, a)));
-    // Scaled first: the square of a tiny product would underflow.
-    let largest = across.abs().max_element();
-    if largest > 0.0 { largest / along.length() * (across / largest).length() } else { 0.0 }
 }
 
 /// Two ulps of f32 around the face's triangle in texture space.

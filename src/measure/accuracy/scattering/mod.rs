@@ -12,8 +12,7 @@
 //! red's.
 //!
 //! **What to expect.** The kernel is the profile's own slice, used as a factor both ways, and the product of two slices is narrower than the profile:
-//! taken at their word the figures scatter too little, however many samples there are. The defaults make up for it by being wider. From 21 samples on
-//! the kernel reaches to three units instead of two, while the width on the skin stays: the same look then scatters a third less far.
+//! taken at their word the figures scatter too little, however many samples there are. The defaults make up for it by being wider.
 
 pub mod convolution;
 
@@ -39,8 +38,6 @@ const SIDE: u32 = 160;
 const PIXELS_PER_CM: f64 = 40.0;
 /// Per cent.
 const PERCENT: f64 = 100.0;
-/// From how many samples on the kernel reaches to three units instead of two.
-const FAR: u32 = 19;
 
 /// Measures it.
 pub fn run(ask: &Ask<'_>) -> Result<Vec<Curve>, MeasureError> {
@@ -151,10 +148,9 @@ fn profile(samples: u32) -> Scattering {
         let (part, spread) = moment(c);
         (spread / part / (red_moment / red)).sqrt() as f32
     });
-    let width_cm = if samples < FAR { 0.2 } else { 0.3 };
     Scattering {
         samples,
-        width_cm,
+        width_cm: 0.2,
         falloff,
         strength: [0, 1, 2].map(|c| moment(c).0 as f32),
         ..shipped(samples)
