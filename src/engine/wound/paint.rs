@@ -40,7 +40,7 @@ pub struct Painted {
     pub corners: Vec<[Corner; 3]>,
     /// Nodes at which fronts meet.
     pub torn: Vec<NodeId>,
-    /// Faces within the radius that are left out, since they would have been folded back over others.
+    /// Faces within the radius that are left out: see [`Walk::refused`](super::surface::Walk::refused).
     pub refused: Vec<FaceId>,
 }
 

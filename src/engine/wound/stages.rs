@@ -123,7 +123,7 @@ fn form(state: &mut State, cut: &mut Cut) -> Result<(), Rejection> {
     cut.formed = settle::form(&state.mesh, &mut plane, picked, state.largest)?;
     cut.plane = Some(plane);
     cut.arc = arc_lengths(&cut.formed.chain);
-    cut.links = skin_links(&state.mesh, &cut.formed.chain, &cut.arc);
+    cut.links = skin_links(&state.mesh, &cut.formed.chain, &cut.arc, state.largest);
     cut.unpainted = cut.unpainted.or_else(|| unpaintable(cut));
     Ok(())
 }

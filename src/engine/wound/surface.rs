@@ -32,7 +32,8 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::chain::{At, Chain};
 use super::flat::{Flat, sides_to_line, to_line, triangle_to_line, unfold};
-use crate::geometry::{distance_to_segment, unit_normal};
+use super::settle::SNAP_ULPS;
+use crate::geometry::{distance_to_segment, ulp, unit_normal};
 use crate::mesh::{EdgeId, FaceId, Mesh, NodeId, Surface};
 
 /// The part of a line in one skin face.
@@ -60,12 +61,13 @@ pub fn arc_lengths(chain: &Chain) -> Vec<f64> {
         .collect()
 }
 
-/// The links that lie in skin and have a length.
-pub fn skin_links(mesh: &Mesh, chain: &Chain, arc: &[f64]) -> Vec<SkinLink> {
+/// The links that lie in skin and are longer than what rounding makes of a point: shorter ones have neither a direction nor a density.
+pub fn skin_links(mesh: &Mesh, chain: &Chain, arc: &[f64], largest: f64) -> Vec<SkinLink> {
+    let least = SNAP_ULPS * ulp(largest);
     let skin = |link: usize| {
         let length = chain.points[link].position.distance(chain.points[link + 1].position);
         let face = skin_face(mesh, chain, link)?;
-        (length > 0.0).then_some(SkinLink { link, face, start: arc[link], length })
+        (length > least).then_some(SkinLink { link, face, start: arc[link], length })
     };
     (0..chain.links.len()).filter_map(skin).collect()
 }
@@ -103,7 +105,7 @@ pub struct Walk {
     pub faces: Vec<Placed>,
     /// Nodes that have other coordinates in some of their faces, since fronts meet there; ascending.
     pub torn: Vec<NodeId>,
-    /// Faces that would have been folded back over others; ascending.
+    /// Faces that would have been folded back over others, or that lie beyond sides of no direction; ascending.
     pub refused: Vec<FaceId>,
 }
 
@@ -250,7 +252,10 @@ impl<'a> Front<'a> {
         // The neighbour runs along the edge the other way.
         (at[first], at[second]) = (before.at[(side + 1) % 3], before.at[side]);
         let corners = [first, second, third].map(|i| self.mesh.position(f.nodes[i]));
-        let own = unfold(corners, [at[first], at[second]])?;
+        let Some(own) = unfold(corners, [at[first], at[second]]) else {
+            self.refused.insert(face);
+            return None;
+        };
         let node = f.nodes[third];
         let known = self.nodes.get(&node).copied();
         let fitting = known.filter(|known| *known == own || fits(corners, *known, own, self.length));

@@ -137,9 +137,12 @@ fn distant(mesh: &Mesh, cut: &Cut, painted: &Painted) -> Check {
     for (face, corners) in beside {
         for (corner, at) in corners.iter().zip(face.at) {
             let Corner::Node(node) = corner else { continue };
-            let away = straight(mesh.position(*node));
             let laid = at.as_dvec2().distance(DVec2::new(f64::from(at.x).clamp(0.0, length), 0.0));
-            let missing = (away.min(half) - laid) / half;
+            // However far it is, it could not be worse.
+            if half - laid <= worst.0 * half {
+                continue;
+            }
+            let missing = (straight(mesh.position(*node)).min(half) - laid) / half;
             if missing > worst.0 {
                 worst = (missing, FaceId(face.face));
             }
@@ -181,8 +184,8 @@ fn left_out(
         let beyond = beyond(mesh, cut, FaceId(face.face), [corners[i], corners[j]])?;
         let [a, b] = [face.at[i], face.at[j]].map(|at| at.as_dvec2());
         let is_there = found.contains(&beyond) || painted.refused.binary_search(&beyond).is_ok();
-        let is_within = segment_distance(a, b, length) < radius - slack(face.at, length);
-        (!is_there && is_within).then_some(beyond)
+        let is_within = || segment_distance(a, b, length) < radius - slack(face.at, length);
+        (!is_there && is_within()).then_some(beyond)
     });
     missing.next()
 }
@@ -213,16 +216,14 @@ fn triangle_distance(at: [Vec2; 3], length: f64) -> f64 {
     sides.iter().map(|[a, b]| segment_distance(*a, *b, length)).fold(f64::INFINITY, f64::min)
 }
 
-/// Distance from the line to a segment: the least of a convex function, by its halves.
+/// Distance from the line to a segment: the least at its ends and wherever it is beside or nearest to an end of the line, or crosses it.
 fn segment_distance(a: DVec2, b: DVec2, length: f64) -> f64 {
+    let (step, end) = (b - a, DVec2::new(length, 0.0));
     let distance = |t: f64| {
-        let p = a + (b - a) * t;
+        let p = a + step * if t > 0.0 { t.min(1.0) } else { 0.0 };
         p.distance(DVec2::new(p.x.clamp(0.0, length), 0.0))
     };
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..60 {
-        let (left, right) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
-        if distance(left) <= distance(right) { high = right } else { low = left }
-    }
-    distance(low).min(distance(high)).min(distance(0.0)).min(distance(1.0))
+    let beside = [-a.x / step.x, (length - a.x) / step.x, -a.y / step.y];
+    let nearest = [-a, end - a].map(|to| to.dot(step) / step.length_squared());
+    least([0.0, 1.0].into_iter().chain(beside).chain(nearest).map(distance))
 }
