@@ -7,12 +7,13 @@ use anstyle::{AnsiColor, Style};
 use super::args::{Bless, Renderer};
 use super::console::Channel;
 use super::table::{Cell, TextTable};
-use super::verify::{Line, jobs, status};
+use super::verify::{Line, jobs, no_planted_bug, status};
 use super::{Console, Done, pixels};
 use crate::report::printable;
 use crate::verify::{self, BlessOptions, BlessReport, Blessed, Change, GaugeReport};
 
 pub(super) fn run(typed: &Bless, console: &mut Console<'_>) -> Done {
+    no_planted_bug()?;
     let usual = if typed.gates { Renderer::Gpu } else { Renderer::Reference };
     let studio = pixels::studio(typed.renderer.unwrap_or(usual), console)?;
     let options = BlessOptions {

@@ -7,11 +7,12 @@ use super::{Console, Done};
 pub(super) fn run(typed: &Nightly, console: &mut Console<'_>) -> Done {
     use std::sync::{Mutex, PoisonError};
 
-    use super::verify::{jobs, status};
+    use super::verify::{jobs, no_planted_bug, status};
     use super::{json, pixels};
     use crate::attack::nightly::Night;
     use crate::verify::VerifyOptions;
 
+    no_planted_bug()?;
     let studio = pixels::studio(typed.renderer, console)?;
     let jobs = jobs(typed.jobs);
     let night = Night {

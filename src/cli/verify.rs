@@ -17,10 +17,16 @@ use crate::replay::Options;
 use crate::report::printable;
 use crate::verify::{self, Blob, Progress, RecordingReport, Skips, Verdict, VerifyOptions, VerifyReport};
 
-pub(super) fn run(typed: &Verify, console: &mut Console<'_>) -> Done {
-    if cfg!(feature = "canary") {
-        return Err(Failure::new("a bug is planted in this program (feature `canary`): it verifies nothing"));
+/// Refuses what a program with a bug in it must not do: to say that something is right.
+pub(super) fn no_planted_bug() -> Result<(), Failure> {
+    match cfg!(feature = "canary") {
+        true => Err(Failure::new("a bug is planted in this program (feature `canary`): it verifies nothing")),
+        false => Ok(()),
     }
+}
+
+pub(super) fn run(typed: &Verify, console: &mut Console<'_>) -> Done {
+    no_planted_bug()?;
     let options = meaning(typed, pixels::studio(typed.pixels.renderer, console)?.into());
     let blob = verify::verify_to_blob(&typed.paths, &options, &Line::on(&mut console.err));
     if let Some(target) = &typed.blob {

@@ -12,6 +12,8 @@ use super::rational::is_rounded;
 use super::{Verdict, Witness, require};
 use crate::attack::Hits;
 use crate::engine::wound::chain::{At, Chain};
+use crate::engine::wound::form::trace;
+use crate::engine::wound::plane::CutPlane;
 use crate::engine::wound::{Cut, Pick, State, Work, Wound, WoundEvent, pick};
 use crate::engine::{Engine, Start};
 use crate::mesh::{Face, FaceId};
@@ -72,24 +74,39 @@ impl Way {
     }
 }
 
-/// FC alone, taken back again: the cut with its line, or why there is none.
-fn form(state: &mut State, event: &WoundEvent, eye: DVec3) -> Result<Box<Cut>, Rejection> {
-    let Start::Run(mut work) = Wound::start(state, event, 0) else {
-        return Err(Rejection::new("none", "it is no cut"));
-    };
+/// What FC made of a cut: its line, or why there is none; and whether rounding had a say in that.
+struct Form {
+    cut: Result<Box<Cut>, Rejection>,
+    rounded: bool,
+}
+
+/// FC alone, taken back again.
+fn form(state: &mut State, event: &WoundEvent, eye: DVec3) -> Form {
+    let none = || Form { cut: Err(Rejection::new("none", "it is no cut")), rounded: false };
+    let Start::Run(mut work) = Wound::start(state, event, 0) else { return none() };
     if let Work::Cut(cut) = &mut work {
         cut.eye = eye;
     }
     let ran = (Wound::STAGES[0].run)(state, &mut work);
     Wound::rollback(state, &mut work);
-    match work {
-        Work::Cut(cut) => ran.map(|()| cut),
-        Work::Subdivide { .. } => Err(Rejection::new("none", "it is no cut")),
-    }
+    let Work::Cut(cut) = work else { return none() };
+    let rounded = match &ran {
+        Ok(()) => is_rounded(&cut),
+        Err(rejection) => was_snapped(state, &cut, rejection),
+    };
+    Form { cut: ran.map(|()| cut), rounded }
+}
+
+/// Whether a cut was rejected for what it was snapped to: without that there is a line, or there is none for another reason.
+fn was_snapped(state: &State, cut: &Cut, rejection: &Rejection) -> bool {
+    let Some([from, to]) = cut.picked else { return false };
+    let Some(plane) = CutPlane::through([cut.eye, from.through, to.through]) else { return false };
+    let traced = trace(&state.mesh, &plane, &from.point, &to.point);
+    traced.err().is_none_or(|other| other.reason != rejection.reason)
 }
 
 /// The same cut seen otherwise; None where that would be another cut.
-fn otherwise(way: Way, witness: &Witness<'_>, eye: DVec3) -> Option<Result<Box<Cut>, Rejection>> {
+fn otherwise(way: Way, witness: &Witness<'_>, eye: DVec3) -> Option<Form> {
     let mine = through(&mut witness.before.clone(), witness.event)?;
     match way {
         Way::Mapped(map) => {
@@ -108,11 +125,9 @@ fn otherwise(way: Way, witness: &Witness<'_>, eye: DVec3) -> Option<Result<Box<C
         Way::Back => {
             let WoundEvent::Cut { from, to } = *witness.event else { return None };
             let event = WoundEvent::Cut { from: to, to: from };
-            let formed = form(&mut witness.before.clone(), &event, eye);
-            Some(formed.map(|mut cut| {
-                cut.formed.chain.points.reverse();
-                cut
-            }))
+            let mut formed = form(&mut witness.before.clone(), &event, eye);
+            formed.cut.iter_mut().for_each(|cut| cut.formed.chain.points.reverse());
+            Some(formed)
         }
     }
 }
@@ -145,15 +160,11 @@ fn turned(witness: &Witness<'_>) -> Option<(State, WoundEvent)> {
     }
 }
 
-fn compare(way: Way, mine: Result<Box<Cut>, Rejection>, theirs: Result<Box<Cut>, Rejection>) -> Verdict {
-    let rounded = |r: &Result<Box<Cut>, Rejection>| match r {
-        Ok(cut) => is_rounded(cut),
-        Err(rejection) => rejection.reason == "below-resolution",
-    };
-    if rounded(&mine) || rounded(&theirs) {
+fn compare(way: Way, mine: Form, theirs: Form) -> Verdict {
+    if mine.rounded || theirs.rounded {
         return Ok(());
     }
-    match (&mine, &theirs) {
+    match (&mine.cut, &theirs.cut) {
         (Ok(a), Ok(b)) => lines(way, &a.formed.chain, &b.formed.chain),
         // Where the way ends depends on where it begins.
         (Err(_), Err(_)) if matches!(way, Way::Back) => Ok(()),

@@ -54,6 +54,15 @@ fn the_parser_is_consistent() {
 }
 
 #[test]
+#[cfg(feature = "canary")]
+fn a_program_with_the_planted_bug_says_of_nothing_that_it_is_right() {
+    for command in [&["verify"][..], &["bless", "--reason", "x"], &["nightly", "--for", "1s"]] {
+        assert!(complaint(command).contains("a bug is planted in this program"), "{command:?}");
+    }
+    assert!(answer(&["doctor"]).contains("CANARY"));
+}
+
+#[test]
 fn help_and_version_are_answers() {
     assert!(answer(&["--help"]).contains("Exit status: 0"));
     assert!(answer(&["--version"]).starts_with("lancet 0"));
