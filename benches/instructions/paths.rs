@@ -13,7 +13,7 @@ use lancet::recording::{self, SceneRef};
 use lancet::replay::{self, Input, Options, Replay};
 use lancet::report::Buffer;
 
-use crate::kit::{Cutter, look, stage};
+use crate::kit::{Cutter, RECORDINGS, look, stage};
 
 /// A path.
 pub(crate) struct Path {
@@ -105,7 +105,7 @@ fn processor() -> String {
 }
 
 fn recording_of(name: &str) -> std::path::PathBuf {
-    File::new(env!("CARGO_MANIFEST_DIR")).join("recordings/wound").join(name)
+    File::new(RECORDINGS).join(name)
 }
 
 impl Bench {

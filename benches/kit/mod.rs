@@ -8,6 +8,10 @@ use lancet::engine::{Engine, Part, Stage, Start};
 use lancet::recording::AnyRecording;
 use lancet::replay;
 
+/// Where the recordings are, from the package's folder, in which cargo runs benchmarks. Whole paths would lay out the heap by the place of the checkout, and
+/// with it what is moved when something grows.
+pub(crate) const RECORDINGS: &str = "recordings/wound";
+
 /// A state before a cut, and how far into the cut it is.
 pub(crate) struct Cutter {
     state: State,
@@ -22,7 +26,7 @@ impl Cutter {
     /// Stands before the first cut of the recording of one of the thesis's samples.
     pub(crate) fn at(sample: &str) -> Self {
         let name = format!("thesis-{}.lancet", sample.replace(' ', "-"));
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("recordings/wound").join(name);
+        let path = Path::new(RECORDINGS).join(name);
         let AnyRecording::Wound(recording) = replay::read(&path).unwrap_or_else(|error| panic!("{error}"));
         let scene = assets::open(&recording.scene, path.parent().unwrap(), &CacheOptions::off()).unwrap();
         let mut state = State::new(scene.mesh, look(&scene.settings, recording.viewport));

@@ -204,9 +204,11 @@ impl Search<'_> {
     fn out_of_face(&mut self, at: u32, face: FaceId) {
         let f = *self.mesh.face(face);
         let sides = f.nodes.map(|n| self.side(n));
-        if sides == [Ordering::Equal; 3] {
-            // All of the face lies in the plane: to its corners, from where the line goes on along the border.
-            f.nodes.iter().for_each(|&n| self.go(at, Point::node(self.mesh, n), face));
+        if !sides.contains(&Ordering::Less) || !sides.contains(&Ordering::Greater) {
+            // The face lies in the plane, or the plane touches it where the pick was rounded to: over the corners that lie in the plane, from where the
+            // line goes on along the border. The other way round it comes from there as well.
+            let touched = (0..3).filter(|&i| sides[i] == Ordering::Equal);
+            touched.for_each(|i| self.go(at, Point::node(self.mesh, f.nodes[i]), face));
             return;
         }
         for i in 0..3 {
