@@ -76,9 +76,7 @@ fn shadowed(light: Lamp, position: vec3f, normal: vec3f) -> f32 {
     let side = i32(textureDimensions(shadow_maps).x);
     let texel = 2.0 * dot(position - light.position, light.axis) * light.tan_half / f32(side);
     let looks = i32(transport.filter_size);
-    // A wider filter looks further along a sloping surface, which is not to shadow itself.
-    let off = texel * max(0.25 * f32(looks + 1), 1.0);
-    let seen = see(light, position + normal * (1.5 * off), f32(side));
+    let seen = see(light, position + normal * (1.5 * texel), f32(side));
     // Also where it is not a number.
     if !(seen.depth > 0.0 && all(abs(seen.place) < vec2f(2.0 * f32(side)))) {
         return 1.0;
@@ -86,7 +84,10 @@ fn shadowed(light: Lamp, position: vec3f, normal: vec3f) -> f32 {
     let first = seen.place - 0.5 - 0.5 * f32(looks - 1);
     let corner = vec2i(floor(first));
     let part = first - floor(first);
-    let depth = seen.depth - 0.5 * off;
+    // A wider filter looks further along a surface that slopes, which is not to shadow itself.
+    let cosine = clamp(-dot(normal, light.axis), 0.2, 1.0);
+    let further = 0.5 * (f32(max(looks, 3)) - 3.0);
+    let depth = seen.depth - texel * (0.5 + further * sqrt(1.0 - cosine * cosine) / cosine);
     var sum = 0.0;
     for (var j = 0; j <= looks; j++) {
         var row = 0.0;

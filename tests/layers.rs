@@ -156,6 +156,7 @@ const BANS: &[Ban] = &[
     Ban {
         path: "std::thread",
         but: &[
+            "attack/nightly/mod.rs",
             "verify/suite.rs",
             "cli/verify.rs",
             "cli/doctor.rs",
@@ -167,7 +168,7 @@ const BANS: &[Ban] = &[
             "tui/worker/mod.rs",
             "tui/worker/compare.rs",
         ],
-        why: "whole recordings run side by side, and beside a screen; within a run there is one order",
+        why: "whole recordings and fuzzers run side by side, and beside a screen; within a run there is one order",
     },
     Ban {
         path: "std::io::stdin",

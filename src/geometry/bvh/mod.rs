@@ -123,8 +123,12 @@ pub struct Ray {
 
 impl Ray {
     /// Where it enters a box at or after 0 and before `limit`, if it does. Errs on the side of yes.
+    pub fn enters(&self, bounds: &Aabb, limit: f64) -> Option<f64> {
+        self.enters_by(self.direction.recip(), bounds, limit)
+    }
+
     #[inline]
-    fn enters(&self, inverse: DVec3, bounds: &Aabb, limit: f64) -> Option<f64> {
+    fn enters_by(&self, inverse: DVec3, bounds: &Aabb, limit: f64) -> Option<f64> {
         let (mut near, mut far) = (0.0f64, limit);
         for k in 0..3 {
             let (lo, hi) = (bounds.min[k] as f64 - self.origin[k], bounds.max[k] as f64 - self.origin[k]);
@@ -153,7 +157,7 @@ impl Bvh {
     pub fn along(&self, ray: Ray, mut limit: f64, mut visit: impl FnMut(u32) -> f64) {
         let inverse = ray.direction.recip();
         let mut stack: Vec<(u32, f64)> = Vec::with_capacity(64);
-        if let Some(t) = ray.enters(inverse, &self.nodes[ROOT as usize].bounds, limit) {
+        if let Some(t) = ray.enters_by(inverse, &self.nodes[ROOT as usize].bounds, limit) {
             stack.push((ROOT, t));
         }
         while let Some((at, entry)) = stack.pop() {
@@ -167,7 +171,8 @@ impl Bvh {
                 }
                 continue;
             }
-            let child = |c: u32| ray.enters(inverse, &self.nodes[c as usize].bounds, limit).map(|t| (c, t));
+            let child =
+                |c: u32| ray.enters_by(inverse, &self.nodes[c as usize].bounds, limit).map(|t| (c, t));
             match (child(link), child(link + 1)) {
                 (Some(a), Some(b)) => {
                     let (first, second) = if a.1 <= b.1 { (a, b) } else { (b, a) };

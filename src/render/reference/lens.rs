@@ -66,6 +66,11 @@ impl Lens {
         DVec3::new(d.dot(self.axes[0]), d.dot(self.axes[1]), d.dot(self.axes[2]))
     }
 
+    /// Where it looks, unit length.
+    pub(crate) fn forward(&self) -> DVec3 {
+        self.axes[2]
+    }
+
     /// The middle of the picture, pixels from its upper left.
     #[inline]
     pub(crate) fn centre(&self) -> [f64; 2] {

@@ -5,7 +5,7 @@
 //! comparisons, weighted (1 − f, 1, …, 1, f)/filter along both axes, f the part of a texel by which the first look is off a centre.
 //!
 //! A point is held 1.5 texels off the surface, and half a texel nearer to the light, so that the surface does not shadow itself. A filter wider than 3 x 3
-//! looks further along a sloping surface, and its points are held off as much further.
+//! looks further along a surface that slopes towards the light, and its points are held nearer by as much as that rises.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -14,6 +14,9 @@ use super::lens::Lens;
 use super::raster::{BAND, Drawing};
 use crate::canvas::frame::Light;
 use crate::mesh::Mesh;
+
+/// Of a surface that slopes more than by this cosine no more is made.
+const GRAZING: f64 = 0.2;
 
 /// What a shadow map depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -107,9 +110,11 @@ impl ShadowMap {
     }
 }
 
-/// How many times as far as with three looks along a side a point is held off the surface.
-fn held_off(filter: u32) -> f64 {
-    (0.25 * f64::from(filter.clamp(1, 9) + 1)).max(1.0)
+/// How much nearer to the light a point is held, texels, where the surface's normal is at an angle of this cosine to the light's axis.
+fn held_nearer(filter: u32, cosine: f64) -> f64 {
+    let further = 0.5 * (f64::from(filter.clamp(3, 9)) - 3.0);
+    let cosine = cosine.clamp(GRAZING, 1.0);
+    0.5 + further * (1.0 - cosine * cosine).sqrt() / cosine
 }
 
 /// A shadow map for points that are given relative to a place: far from the origin their own differences keep their digits.
@@ -125,11 +130,11 @@ impl ShadowsAround<'_> {
         let lens = &self.lens;
         let size = f64::from(lens.size[0]);
         let texel = 2.0 * lens.see(point).z * self.map.key.tan_half / size;
-        let off = texel * held_off(filter);
-        let seen = lens.see(point + normal * (1.5 * off));
+        let seen = lens.see(point + normal * (1.5 * texel));
+        let nearer = texel * held_nearer(filter, -normal.dot(lens.forward()));
         let place = lens.place(seen).filter(|place| place.iter().all(|x| x.abs() < 2.0 * size));
         let Some(place) = place else { return 1.0 };
-        self.map.filtered(place, filter, (seen.z - 0.5 * off) as f32)
+        self.map.filtered(place, filter, (seen.z - nearer) as f32)
     }
 
     /// How far along its axis light has gone through the model before it comes to a point; `None` outside of the map.

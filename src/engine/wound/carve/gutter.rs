@@ -23,8 +23,6 @@ use crate::report::Rejection;
 
 /// How much of the tissue below a node its gutter may take.
 const SHARE_OF_TISSUE: f64 = 0.5;
-/// A ray and a triangle are parallel if their determinant is less than this part of the product of their lengths.
-const EDGE_ON: f64 = 1e-12;
 /// How often a depth is reduced to keep the gutter from crossing something.
 const ATTEMPTS: usize = 24;
 /// After how many of them the opening narrows too.
@@ -123,29 +121,30 @@ fn bound_depths(place: &Place<'_>, carved: &mut Carved, inward: &[DVec3]) -> Res
 }
 
 /// How far it is to the next face below a node, not counting those that meet there; at least `enough` is not told apart.
+///
+/// The hierarchy also offers faces whose own box the ray does not enter. Where one lies edge-on it would be met by rounding alone; so its box counts
+/// as well, and the answer does not depend on how the hierarchy came about.
 fn thickness(place: &Place<'_>, o: &Opened, direction: DVec3, enough: f64) -> f64 {
-    let mut nearest = enough;
-    place.bvh.along(Ray { origin: o.at, direction }, enough, |item| {
+    let (ray, mut nearest) = (Ray { origin: o.at, direction }, enough);
+    place.bvh.along(ray, enough, |item| {
         let face = place.mesh.face(FaceId(item));
-        if face.corner(o.left).is_none() && face.corner(o.right).is_none() {
-            let t = distance_along(o.at, direction, place.mesh.triangle(FaceId(item)));
-            nearest = t.map_or(nearest, |t| nearest.min(t));
+        if face.corner(o.left).is_none()
+            && face.corner(o.right).is_none()
+            && let Some(entered) = ray.enters(&face_box(place.mesh, item), nearest)
+            && let Some(t) = distance_along(o.at, direction, place.mesh.triangle(FaceId(item)))
+        {
+            nearest = nearest.min(t.max(entered));
         }
         nearest
     });
     nearest
 }
 
-/// Where a ray meets a triangle (Möller and Trumbore 1997); rounded, as nothing but a bound comes of it. A triangle that is seen edge-on is not met: where it
-/// would be is noise, and what lies in the way all the same is found when the gutter is made ([`keep_clear`]).
+/// Where a ray meets a triangle (Möller and Trumbore 1997); rounded, as nothing but a bound comes of it.
 fn distance_along(origin: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f64> {
     let (e1, e2) = (b - a, c - a);
     let p = direction.cross(e2);
     let det = e1.dot(p);
-    let largest = |v: DVec3| v.abs().max_element();
-    if det.abs() <= EDGE_ON * largest(e1) * largest(e2) {
-        return None;
-    }
     let s = origin - a;
     let q = s.cross(e1);
     let (u, v, t) = (s.dot(p) / det, direction.dot(q) / det, e2.dot(q) / det);
