@@ -44,9 +44,7 @@ impl Support {
     fn of(before: &Mesh, after: &Mesh, ran: &Ran) -> Option<Self> {
         let (cut, edit) = (ran.applied()?, ran.edit.as_ref()?);
         let changed: BTreeSet<NodeId> = edit.mesh.nodes().collect();
-        if edit.mesh.faces().next().is_none() {
-            return None;
-        }
+        edit.mesh.faces().next()?;
         // A face beside one that changed says how far a node may move.
         let beside = |mesh: &Mesh| {
             let faces = (0..mesh.face_count()).map(FaceId::of).filter(|&f| mesh.has_face(f));
