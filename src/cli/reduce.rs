@@ -28,13 +28,16 @@ fn failure(case: &Case, recording: &AnyRecording) -> Result<Option<String>, Fail
     Ok(broken.or_else(|| oracle(recording)))
 }
 
-/// The oracle that a recording breaks, if there are oracles in this program.
+/// The oracle that a recording breaks.
+#[cfg(feature = "attack")]
 fn oracle(recording: &AnyRecording) -> Option<String> {
-    #[cfg(feature = "attack")]
-    let broken = crate::attack::judge(recording);
-    #[cfg(not(feature = "attack"))]
-    let broken = None;
-    broken
+    crate::attack::judge(recording)
+}
+
+/// There are no oracles in this program.
+#[cfg(not(feature = "attack"))]
+fn oracle(_: &AnyRecording) -> Option<String> {
+    None
 }
 
 struct Reducer<'a, 'c, 'w> {
