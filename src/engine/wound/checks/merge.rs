@@ -95,9 +95,20 @@ fn uv_affine(mesh: &Mesh, families: &[Family<'_>], bound: f64) -> Check {
 fn affine([a, b, c]: [DVec3; 3], uvs: [DVec2; 3], p: DVec3) -> DVec2 {
     let n = (b - a).cross(c - a);
     let square = n.length_squared();
+    if square == 0.0 {
+        return along_longest([a, b, c], uvs, p);
+    }
     let v = (p - a).cross(c - a).dot(n) / square;
     let w = (b - a).cross(p - a).dot(n) / square;
     uvs[0] + (uvs[1] - uvs[0]) * v + (uvs[2] - uvs[0]) * w
+}
+
+/// The same of a triangle so thin that in floats it has no area: by its longest side, from which no place of it is far.
+fn along_longest(at: [DVec3; 3], uvs: [DVec2; 3], p: DVec3) -> DVec2 {
+    let side = |i: usize| at[(i + 1) % 3] - at[i];
+    let i = (0..3).fold(0, |best, k| if side(k).length() > side(best).length() { k } else { best });
+    let t = (p - at[i]).dot(side(i)) / side(i).length_squared();
+    uvs[i].lerp(uvs[(i + 1) % 3], t)
 }
 
 /// The line's edges are there, in order, through the chain's points.
