@@ -1,3 +1,5 @@
+//! Plain floats with an epsilon: right where nothing is near, and wrong as they are expected to be.
+
 use glam::DVec3;
 
 use super::{Failure, SHARES, cut, epsilon, judge};

@@ -1,3 +1,5 @@
+//! What is drawn over a frame: hidden where it is behind something, as wide as promised, and never a panic.
+
 use glam::{DVec3, Vec2};
 
 use super::*;

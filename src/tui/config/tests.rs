@@ -1,3 +1,5 @@
+//! The configuration: the example reads, every setting has its effect, and errors name their place.
+
 use super::*;
 
 const NAMES: [&str; 5] = ["quit", "search", "palette", "step-forward", "step-back"];

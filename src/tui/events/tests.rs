@@ -1,3 +1,5 @@
+//! The mouse: what a click, a second one and the wheel do.
+
 use crossterm::event::KeyModifiers;
 
 use super::*;

@@ -1,3 +1,5 @@
+//! What the panes draw of a run.
+
 use std::sync::Arc;
 
 use ratatui::buffer::Buffer;

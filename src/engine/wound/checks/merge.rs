@@ -79,7 +79,12 @@ fn uv_affine(mesh: &Mesh, families: &[Family<'_>], bound: f64) -> Check {
         let extent = uvs[0].distance(uvs[1]).max(uvs[1].distance(uvs[2]));
         // Coordinates outside of the unit square have fewer digits after the point.
         let size = uvs.iter().map(|uv| uv.abs().max_element()).fold(1.0, f64::max);
-        let tolerance = 1e-6 * size + extent * 4.0 * bound / altitude(*parent).max(f64::MIN_POSITIVE);
+        // In a face of no area no place is more uncertain than by the whole face.
+        let uncertain = match altitude(*parent) {
+            0.0 => 2.0 * extent,
+            altitude => extent * 4.0 * bound / altitude,
+        };
+        let tolerance = 1e-6 * size + uncertain;
         for &child in *children {
             for (p, v) in mesh.triangle(child).into_iter().zip(mesh.face(child).vertices) {
                 let expected = affine(*parent, uvs, p);

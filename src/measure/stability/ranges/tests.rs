@@ -1,3 +1,5 @@
+//! Where a range ends, and that the ladders tell the engine from plain floats.
+
 use super::ladders::{LADDERS, mend};
 use super::report::{LadderReport, Until};
 use super::rung::{Base, Ours, Rung, Theirs, run};

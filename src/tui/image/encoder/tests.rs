@@ -1,3 +1,5 @@
+//! Pictures in half blocks and in every graphics protocol.
+
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 

@@ -1,3 +1,5 @@
+//! What the picture pane says of what it shows, and of what it cannot show.
+
 use std::sync::Arc;
 
 use ratatui::buffer::Buffer;
