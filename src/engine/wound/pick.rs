@@ -16,6 +16,7 @@ use super::event::Pick;
 use super::{State, camera::Camera};
 use crate::geometry::bvh::{Bvh, Ray};
 use crate::geometry::double;
+use crate::geometry::exact::{self, Dyadic};
 use crate::geometry::predicates::{Sign, nearer, orient3d, parameter};
 use crate::mesh::{FaceId, Mesh, NodeId};
 use crate::report::Rejection;
@@ -205,16 +206,32 @@ fn along_edge(a: DVec3, b: DVec3, eye: DVec3, through: DVec3) -> f64 {
 /// The point inside a face that a ray meets.
 pub fn in_face(mesh: &Mesh, face: FaceId, eye: DVec3, through: DVec3) -> Point {
     let corners = mesh.triangle(face);
-    let d = double::difference(through, eye);
-    let from_eye = corners.map(|c| double::difference(c, eye));
-    let volume = |i: usize| double::dot(d, double::cross(from_eye[i], from_eye[(i + 1) % 3])).value();
-    // A corner's weight is the volume of the side across from it.
-    let volumes = [volume(1), volume(2), volume(0)];
-    let weights = volumes.map(|v| v / (volumes[0] + volumes[1] + volumes[2]));
+    let volumes = volumes(corners, eye, through);
+    let weights = (volumes / volumes.element_sum()).to_array();
     let [a, b, c] = corners;
     let position = double::blend(a, [(b, weights[1]), (c, weights[2])]);
     let [lo, hi] = [a.min(b).min(c), a.max(b).max(c)];
     Point { at: At::Face(face), position: position.clamp(lo, hi), weights }
+}
+
+/// Below this part of the terms that they are made of, the volumes' sum may have lost digits that the weights need: half of the 106.
+const LOST: f64 = 1e-13;
+
+/// Volumes that are to each other as the corners' weights: of the ray's piece and the side across from a corner.
+fn volumes(corners: [DVec3; 3], eye: DVec3, through: DVec3) -> DVec3 {
+    let d = double::difference(through, eye);
+    let from_eye = corners.map(|c| double::difference(c, eye));
+    let volume = |i: usize| double::dot(d, double::cross(from_eye[i], from_eye[(i + 1) % 3])).value();
+    let volumes = DVec3::new(volume(1), volume(2), volume(0));
+    let size = |v: DVec3| v.abs().max_element();
+    let farthest = from_eye.map(|v| size(double::rounded(v))).into_iter().fold(0.0, f64::max);
+    if volumes.element_sum().abs() > LOST * size(double::rounded(d)) * farthest * farthest {
+        return volumes;
+    }
+    let d = exact::difference::<Dyadic>(through, eye);
+    let from_eye = corners.map(|c| exact::difference(c, eye));
+    let volume = |i: usize| exact::dot(&d, &exact::cross(&from_eye[i], &from_eye[(i + 1) % 3]));
+    double::rounded(exact::direction(&[volume(1), volume(2), volume(0)]))
 }
 
 #[cfg(test)]
