@@ -100,7 +100,8 @@ impl Config {
 
     /// The settings of a file that was named, or else of the usual one, if it is there.
     pub fn load(named: Option<&Path>, actions: &[Known]) -> Result<Self, ConfigError> {
-        let usual = || Self::usual_file().filter(|file| assets::is_file(file));
+        // Something else of this name, such as a folder, is not overlooked.
+        let usual = || Self::usual_file().filter(|file| assets::is_file(file) || assets::is_folder(file));
         let Some(file) = named.map(Path::to_path_buf).or_else(usual) else { return Ok(Self::default()) };
         let bytes = assets::read_file(&file).map_err(ConfigError::File)?;
         Self::parse(&bytes, &file, actions)

@@ -12,7 +12,7 @@ use ratatui::widgets::{Clear, Widget};
 
 use super::action::Action;
 use super::keys::Keys;
-use super::model::{Message, Model, Pane, Progress};
+use super::model::{Message, Model, Pane, Place, Progress};
 use super::theme::{Role, Theme};
 use super::worker::Opened;
 use super::{record, text};
@@ -132,9 +132,9 @@ fn say(message: &Message, [width, height]: [u16; 2], theme: &Theme, buffer: &mut
 }
 
 /// Keys and names of actions, as many as fit. The last comes before all others: it is the way to the rest.
-fn fitting(actions: &[Action], keys: &Keys, room: usize) -> Vec<(String, String)> {
-    let hint = |action: &Action| Some((keys.first(*action)?.to_string(), format!(" {}", action.row().name)));
-    let mut hints: Vec<(String, String)> = actions.iter().filter_map(hint).collect();
+fn fitting(actions: impl Iterator<Item = Action>, keys: &Keys, room: usize) -> Vec<(String, String)> {
+    let hint = |action: Action| Some((keys.first(action)?.to_string(), format!(" {}", action.row().name)));
+    let mut hints: Vec<(String, String)> = actions.filter_map(hint).collect();
     let width = |hints: &[(String, String)]| -> usize {
         let words = hints.iter().map(|(key, name)| text::width(key) + text::width(name));
         words.sum::<usize>() + 2 * hints.len().saturating_sub(1)
@@ -147,8 +147,19 @@ fn fitting(actions: &[Action], keys: &Keys, room: usize) -> Vec<(String, String)
     hints
 }
 
-/// What is worth a hint, where the focus is.
-fn hints(model: &Model) -> &'static [Action] {
+/// What is worth a hint, where the focus is: nothing that would lead nowhere.
+fn hints(model: &Model) -> impl Iterator<Item = Action> {
+    use Action as A;
+    let (at_start, at_end) = (model.place == Place::START, model.place == Place::after(model.len()));
+    let leads_nowhere = move |action: &Action| match action {
+        A::PreviousEvent => at_start,
+        A::NextEvent | A::NextStage | A::NextCut | A::Play => at_end,
+        _ => false,
+    };
+    of_focus(model).iter().copied().filter(move |action| !leads_nowhere(action))
+}
+
+fn of_focus(model: &Model) -> &'static [Action] {
     use Action as A;
     if model.recorder.is_some() {
         return &[A::Point, A::Mode, A::Undo, A::Checkpoint, A::Save, A::Cancel, A::Help];

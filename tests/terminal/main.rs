@@ -37,6 +37,18 @@ fn opened(folder: &Path, size: [u16; 2]) -> Program {
     program
 }
 
+/// It was set aside as if there were none, and so were the settings that its user believed in.
+#[test]
+fn a_folder_in_the_place_of_the_settings_is_told() {
+    let folder = folder();
+    fs::create_dir_all(folder.path().join("lancet/config.toml")).expect("made");
+    let mut lancet = Command::new(env!("CARGO_BIN_EXE_lancet"));
+    let lancet = lancet.args(["tui", "--screen", "-", "square.json"]).current_dir(folder.path());
+    let output = lancet.env("XDG_CONFIG_HOME", folder.path()).output().expect("it runs");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.code() == Some(2) && said.contains("config.toml: "), "{said}");
+}
+
 #[test]
 fn it_starts_steps_and_follows_the_terminals_size() {
     let folder = folder();

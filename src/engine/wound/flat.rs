@@ -66,7 +66,9 @@ fn to_segment_squared(p: DVec2, a: DVec2, b: DVec2) -> f64 {
 
 fn contains(&[a, b, c]: &Flat, p: DVec2) -> bool {
     let turns = [(a, b), (b, c), (c, a)].map(|(from, to)| (to - from).perp_dot(p - from));
-    turns.iter().all(|&t| t >= 0.0) || turns.iter().all(|&t| t <= 0.0)
+    // In a triangle without area everything on its line turns neither way, and only its sides say what is in it.
+    let [left, right] = [turns.iter().any(|&t| t > 0.0), turns.iter().any(|&t| t < 0.0)];
+    left != right
 }
 
 #[cfg(test)]
@@ -95,6 +97,7 @@ mod tests {
         assert_eq!(triangle_to_line(&[at(-9.0, -9.0), at(9.0, -9.0), at(0.0, 9.0)], 1.0), 0.0);
         assert_eq!(triangle_to_line(&[at(2.0, -1.0), at(3.0, -1.0), at(2.5, 1.0)], 5.0), 0.0);
         assert_eq!(triangle_to_line(&[at(2.0, 1.0), at(3.0, 1.5), at(2.5, 4.0)], 5.0), 1.0);
+        assert_eq!(triangle_to_line(&[at(7.0, 0.0), at(6.0, 0.0), at(7.0, 0.0)], 5.0), 1.0, "without area");
     }
 
     #[test]

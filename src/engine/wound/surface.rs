@@ -30,7 +30,7 @@ use std::collections::BinaryHeap;
 use glam::{DVec2, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::chain::{At, Chain};
+use super::chain::{At, Chain, Point};
 use super::flat::{Flat, sides_to_line, to_line, triangle_to_line, unfold};
 use super::settle::SNAP_ULPS;
 use crate::geometry::{distance_to_segment, ulp, unit_normal};
@@ -112,9 +112,8 @@ pub struct Walk {
 /// Lays down every face within a radius of a line, beginning with its links.
 pub fn walk(mesh: &Mesh, chain: &Chain, links: &[SkinLink], length: f64, radius: f64) -> Walk {
     let nodes = around_links(mesh, chain, links);
-    let line = chain.points.iter().map(|p| p.position).collect();
-    let mut front = Front::new(mesh, line, length, radius, nodes);
-    front.begin(chain, links);
+    let mut front = Front::new(mesh, chain, length, radius, nodes);
+    front.begin(links);
     while front.step() {}
     let mut torn: Vec<NodeId> = front.torn.into_iter().collect();
     torn.sort_unstable();
@@ -182,6 +181,8 @@ type Step = Reverse<(u64, FaceId, u32, u8)>;
 struct Front<'a> {
     mesh: &'a Mesh,
     line: Vec<DVec3>,
+    /// Edges on which the line has a point: they are at no distance from it, however they are laid down.
+    on_line: FxHashSet<EdgeId>,
     length: f64,
     radius: f64,
     nodes: FxHashMap<NodeId, DVec2>,
@@ -193,27 +194,16 @@ struct Front<'a> {
 }
 
 impl<'a> Front<'a> {
-    fn new(
-        mesh: &'a Mesh,
-        line: Vec<DVec3>,
-        length: f64,
-        radius: f64,
-        nodes: FxHashMap<NodeId, DVec2>,
-    ) -> Self {
+    fn new(mesh: &'a Mesh, chain: &Chain, length: f64, radius: f64, nodes: FxHashMap<NodeId, DVec2>) -> Self {
+        let line = chain.points.iter().map(|p| p.position).collect();
+        let on_edge = |p: &Point| if let At::Edge(e) = p.at { Some(e) } else { None };
+        let on_line = chain.points.iter().filter_map(on_edge).collect();
         let (seen, steps, torn, refused) = Default::default();
-        Self { mesh, line, length, radius, nodes, seen, steps, faces: Vec::new(), torn, refused }
+        Self { mesh, line, on_line, length, radius, nodes, seen, steps, faces: Vec::new(), torn, refused }
     }
 
-    /// Lays down the links' faces. The edges on which the line has a point are on the line, however they are rounded.
-    fn begin(&mut self, chain: &Chain, links: &[SkinLink]) {
-        let on_line: FxHashSet<EdgeId> = chain
-            .points
-            .iter()
-            .filter_map(|p| match p.at {
-                At::Edge(e) => Some(e),
-                _ => None,
-            })
-            .collect();
+    /// Lays down the links' faces.
+    fn begin(&mut self, links: &[SkinLink]) {
         for link in links {
             let corners = self.mesh.face(link.face).nodes.map(|n| self.nodes.get(&n).copied());
             if let [Some(a), Some(b), Some(c)] = corners
@@ -224,7 +214,7 @@ impl<'a> Front<'a> {
             }
         }
         for i in 0..self.faces.len() {
-            self.push_sides(i, |edge| on_line.contains(&edge));
+            self.push_sides(i);
         }
     }
 
@@ -236,7 +226,7 @@ impl<'a> Front<'a> {
         {
             self.seen.insert(face);
             self.faces.push(placed);
-            self.push_sides(self.faces.len() - 1, |_| false);
+            self.push_sides(self.faces.len() - 1);
         }
         true
     }
@@ -305,7 +295,7 @@ impl<'a> Front<'a> {
         self.torn.extend(torn.map(|(n, _)| n));
     }
 
-    fn push_sides(&mut self, from: usize, is_on_line: impl Fn(EdgeId) -> bool) {
+    fn push_sides(&mut self, from: usize) {
         let Placed { face, sides, .. } = self.faces[from];
         for side in 0..3 {
             let edge = self.mesh.face(face).edges[side];
@@ -313,7 +303,7 @@ impl<'a> Front<'a> {
             if self.seen.contains(&beyond) || self.mesh.face(beyond).surface == Surface::Gutter {
                 continue;
             }
-            let distance = if is_on_line(edge) { 0.0 } else { sides[side] };
+            let distance = if self.on_line.contains(&edge) { 0.0 } else { sides[side] };
             if distance <= self.radius {
                 // The bits of floats that are not negative are in the order of the floats.
                 self.steps.push(Reverse((distance.to_bits(), beyond, from as u32, side as u8)));

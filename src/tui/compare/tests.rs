@@ -161,11 +161,17 @@ fn a_golden_that_is_missing_is_a_problem_and_so_is_a_picture_that_is_another() {
     let suite = Suite::new();
     std::fs::remove_file(suite.at("golden/square/_run.bin")).expect("removed");
     std::fs::write(suite.at("golden/square/cut.png"), b"x").expect("written");
-    let screen = compared(&suite);
+    let mut screen = compared(&suite);
     let rows = &found(&screen).rows;
     assert!(matches!(&rows[0], Row::Problem(problem) if problem.contains("cut.png: damaged")), "{rows:?}");
     assert!(matches!(&rows[1], Row::Problem(problem) if problem.ends_with("_run.bin: missing")), "{rows:?}");
     assert_eq!(screen.said(), ("not as the goldens: 2 problems", true));
+    screen.act(Action::NextDivergence);
+    assert_eq!(
+        screen.said(),
+        ("not as the goldens: 2 problems", true),
+        "no event differs, but all is not well"
+    );
 }
 
 #[test]

@@ -116,8 +116,11 @@ fn next(model: &mut Model) {
     let places: Vec<_> = rows.filter_map(|row| Some((compare::place(model, row)?, row))).collect();
     let on = places.iter().filter(|(place, _)| *place > model.place).min();
     let (Some((place, row)), wraps) = (on.or(places.iter().min()), on.is_none()) else {
-        let name = differences.with.name();
-        return model.say(format!("no event differs from {name}"));
+        // What is wrong with the comparison as a whole, such as goldens that are missing, is at no event.
+        return match differences.verified {
+            true => model.say(format!("no event differs from {}", differences.with.name())),
+            false => model.complain(compare::verdict(differences)),
+        };
     };
     let (row, back) = (*row, wraps && *place != model.place);
     let alone = wraps && !back;

@@ -92,6 +92,17 @@ fn hints_are_whole_and_help_comes_before_all_others() {
 }
 
 #[test]
+fn at_the_start_and_at_the_end_no_hint_leads_beyond() {
+    let mut model = model(130, 12);
+    let hint = |model: &Model, name: &str| text(model).pop().expect("a status line").contains(name);
+    model.place = Place::START;
+    assert!(hint(&model, "next-event") && !hint(&model, "previous-event"));
+    model.place = Place::after(model.len());
+    let beyond = ["next-event", "next-stage", "next-cut", "play"];
+    assert!(hint(&model, "previous-event") && !beyond.iter().any(|name| hint(&model, name)));
+}
+
+#[test]
 fn the_title_line_says_what_is_selected_and_keeps_the_place() {
     let mut model = model(80, 24);
     model.selected = vec!["f1".into(), "e2".into()];
