@@ -152,7 +152,11 @@ const BANS: &[Ban] = &[
         ],
         why: "only what times a run, or a pass of a frame, knows a clock",
     },
-    Ban { path: "std::time::SystemTime", but: &[], why: "a run does not depend on its date" },
+    Ban {
+        path: "std::time::SystemTime",
+        but: &["cli/nightly.rs"],
+        why: "a run does not depend on its date, but a night is to try other things than the one before",
+    },
     Ban {
         path: "std::thread",
         but: &[

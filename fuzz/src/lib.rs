@@ -1,56 +1,43 @@
 //! What every fuzz target does: run the bytes, and on a finding leave the recording that leads to it beside libFuzzer's own artifact.
 //!
-//! libFuzzer stops the process at the first panic, before a stack is unwound. So what the bytes stand for is written from the panic's hook, which
+//! libFuzzer stops the process at the first panic, before a stack is unwound. So what was being run is written from the panic's hook, which
 //! comes first; `lancet tui` and `lancet reduce` then open it. It goes into the folder that LANCET_FINDINGS names, else into artifacts/TARGET.
 
-use std::cell::RefCell;
+use std::cell::Cell;
 use std::env;
 use std::fs;
 use std::panic;
 use std::path::PathBuf;
 use std::process;
 
-use lancet::attack::{Target, target};
+use lancet::attack::{target, under_way};
 
 thread_local! {
-    /// What is being run.
-    static RUNNING: RefCell<Option<(&'static str, Vec<u8>)>> = const { RefCell::new(None) };
+    /// The target that is being run.
+    static RUNNING: Cell<&'static str> = const { Cell::new("") };
 }
 
 /// To be called once, before the first input.
 pub fn begin() {
     let before = panic::take_hook();
     panic::set_hook(Box::new(move |info| {
-        RUNNING.with_borrow(|running| {
-            if let Some((name, data)) = running {
-                keep(name, data);
-            }
-        });
+        // Nothing is run here: what panicked once would do so again, and a panic within a hook ends everything.
+        if let Some(recording) = under_way() {
+            write(RUNNING.get(), &recording);
+        }
         before(info);
     }));
 }
 
 /// Runs an input on a target; panics with the finding if there is one.
 pub fn attack(name: &'static str, data: &[u8]) {
-    RUNNING.set(Some((name, data.to_vec())));
-    if let Err(finding) = (of(name).run)(data) {
+    RUNNING.set(name);
+    let target = target(name).unwrap_or_else(|| panic!("lancet::attack has no target {name}"));
+    if let Err(finding) = (target.run)(data) {
         if let Some(recording) = &finding.recording {
             write(name, recording);
-            // The hook would write what the whole input stands for; the finding's own recording says more.
-            RUNNING.set(None);
         }
         panic!("{finding}");
-    }
-    RUNNING.set(None);
-}
-
-fn of(name: &str) -> &'static Target {
-    target(name).unwrap_or_else(|| panic!("lancet::attack has no target {name}"))
-}
-
-fn keep(name: &str, data: &[u8]) {
-    if let Some(recording) = (of(name).recording)(data) {
-        write(name, &recording);
     }
 }
 

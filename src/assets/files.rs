@@ -4,11 +4,12 @@
 
 use std::cmp::Reverse;
 use std::ffi::OsString;
-use std::fs;
-use std::io;
+use std::fs::{self, OpenOptions};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf, absolute};
 
 use super::error::{AssetError, Fault, FaultKind};
+use super::outputs::note_read;
 use crate::recording::SceneRef;
 
 /// The bytes of a file; refuses what is none, such as a device without an end.
@@ -17,11 +18,29 @@ pub fn read_file(path: &Path) -> Result<Vec<u8>, AssetError> {
     if !metadata.is_file() {
         return Err(Fault::whole(FaultKind::Io, "is not a file").in_file(path));
     }
-    fs::read(path).map_err(|e| AssetError::io(path, &e))
+    let bytes = fs::read(path).map_err(|e| AssetError::io(path, &e))?;
+    note_read(path);
+    Ok(bytes)
 }
 
 /// Writes a file, and the folders that it lies in. What stood there before stays until the new bytes are all written.
+///
+/// A link is followed; a pipe or a device is written into, as it is.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), AssetError> {
+    match fs::metadata(path) {
+        Ok(there) if !there.is_file() && !there.is_dir() => {
+            let into = OpenOptions::new().write(true).open(path);
+            return into.and_then(|mut file| file.write_all(bytes)).map_err(|e| AssetError::io(path, &e));
+        }
+        Ok(_) if path.is_symlink() => {
+            let real = fs::canonicalize(path).map_err(|e| AssetError::io(path, &e))?;
+            return replace_file(&real, bytes);
+        }
+        _ => replace_file(path, bytes),
+    }
+}
+
+fn replace_file(path: &Path, bytes: &[u8]) -> Result<(), AssetError> {
     let mut name = path.file_name().map_or_else(OsString::new, OsString::from);
     name.push(format!(".{}.part", std::process::id()));
     let part = path.with_file_name(name);
@@ -63,11 +82,18 @@ pub fn real_folder(folder: &Path) -> Result<PathBuf, AssetError> {
 
 /// A scene that a file in `folder` names, as a file at `path` has to name it.
 pub fn moved(scene: &SceneRef, folder: &Path, path: &Path) -> Result<SceneRef, AssetError> {
-    let whole = |folder: &Path| {
+    let real = |folder: &Path| {
         let here = folder.as_os_str().is_empty();
-        absolute(if here { Path::new(".") } else { folder }).map_err(|e| AssetError::io(folder, &e))
+        let whole = absolute(if here { Path::new(".") } else { folder });
+        whole.map(|whole| without_links(&whole)).map_err(|e| AssetError::io(folder, &e))
     };
-    Ok(scene.moved(&whole(folder)?, &whole(path.parent().unwrap_or(Path::new("")))?))
+    Ok(scene.moved(&real(folder)?, &real(path.parent().unwrap_or(Path::new("")))?))
+}
+
+/// An absolute path without the links in it, as far as it exists: `..` leads elsewhere from a link than from where it seems to be.
+fn without_links(path: &Path) -> PathBuf {
+    let there = path.ancestors().find_map(|above| Some((above, fs::canonicalize(above).ok()?)));
+    there.map_or_else(|| path.into(), |(above, real)| real.join(path.strip_prefix(above).unwrap_or(path)))
 }
 
 /// The files of a folder, without those in folders in it, whatever was written last first; none where there is no such folder.
@@ -82,6 +108,12 @@ pub fn newest_files(folder: &Path) -> Result<Vec<PathBuf>, AssetError> {
 /// Whether a path is a file.
 pub fn is_file(path: &Path) -> bool {
     path.is_file()
+}
+
+/// Whether two paths lead to one file, there or not.
+pub fn is_same_file(a: &Path, b: &Path) -> bool {
+    let real = |path: &Path| fs::canonicalize(path).or_else(|_| absolute(path)).ok();
+    real(a).zip(real(b)).is_some_and(|(a, b)| a == b)
 }
 
 /// Whether a path is a folder.
@@ -188,6 +220,43 @@ mod tests {
         assert_eq!(moved("/a/cuts", "/a/new/x.lancet"), scene);
         assert_eq!(moved("/a/cuts", "/b/x.lancet"), SceneRef::Mesh("../a/meshes/head.obj".into()));
         assert_eq!(moved("", "x.lancet"), scene, "here is here");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_is_followed_and_stays_one() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        write_file(&at("far/real"), b"old").expect("written");
+        std::os::unix::fs::symlink("far/real", at("link")).expect("a link");
+        write_file(&at("link"), b"new").expect("written");
+        assert!(at("link").is_symlink());
+        assert_eq!(read_file(&at("far/real")).expect("read"), b"new");
+        std::os::unix::fs::symlink("far", at("near")).expect("a link");
+        let seen = moved(&SceneRef::Mesh("head.obj".into()), folder.path(), &at("near/x.lancet"));
+        assert_eq!(seen.expect("a folder"), SceneRef::Mesh("../head.obj".into()));
+        write_file(&at("far/further/y"), b"").expect("written");
+        std::os::unix::fs::symlink("far/further", at("further")).expect("a link");
+        let seen = moved(&SceneRef::Mesh("head.obj".into()), folder.path(), &at("further/x.lancet"));
+        assert_eq!(seen.expect("a folder"), SceneRef::Mesh("../../head.obj".into()));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_is_written_into_and_stays_one() {
+        use std::os::unix::fs::FileTypeExt;
+
+        let folder = tempfile::tempdir().expect("a folder");
+        let pipe = folder.path().join("pipe");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status().expect("mkfifo runs");
+        assert!(made.success());
+        let read = std::thread::scope(|scope| {
+            let reader = scope.spawn(|| fs::read(&pipe).expect("read"));
+            write_file(&pipe, b"through").expect("written");
+            reader.join().expect("no panic")
+        });
+        assert_eq!(read, b"through");
+        assert!(fs::metadata(&pipe).expect("there").file_type().is_fifo());
     }
 
     #[cfg(unix)]

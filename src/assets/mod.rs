@@ -21,6 +21,7 @@ mod links;
 mod maps;
 mod obj;
 mod open;
+mod outputs;
 mod ply;
 mod polygon;
 mod repair;
@@ -34,12 +35,13 @@ use serde::{Deserialize, Serialize};
 pub use cache::CacheOptions;
 pub use error::{AssetError, Fault, FaultKind, Place};
 pub use files::{
-    is_file, is_folder, list_files, list_folder, moved, newest_files, read_file, real_folder, remove_file,
+    is_file, is_folder, is_same_file, list_files, list_folder, moved, newest_files, read_file, real_folder, remove_file,
     take_file, write_file,
 };
 pub use inspect::{MeshFacts, inspect};
 pub use maps::{MapSources, read_png, write_png};
 pub use open::{Loaded, open};
+pub use outputs::{begin_outputs, claim_output, write_output};
 pub use scene::SceneSettings;
 pub use source::{is_mesh, read_mesh};
 

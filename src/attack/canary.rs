@@ -10,6 +10,14 @@ use crate::measure::Random;
 /// Whether the bug is there. A program in which it is verifies nothing.
 pub const IS_PLANTED: bool = cfg!(feature = "canary");
 
+/// Whether a finding is of the planted bug, by the oracles that see it.
+pub fn is_planted(finding: &str) -> bool {
+    SEEN_BY.iter().any(|check| finding.strip_prefix(check).is_some_and(|rest| rest.starts_with(": ")))
+}
+
+/// The oracles that see the planted bug.
+const SEEN_BY: [&str; 1] = ["MC/uv-affine"];
+
 /// The inputs that were run until something was found, and what it was; none within so many.
 pub fn hunt(seed: u64, inputs: u64) -> Option<(u64, Box<Finding>)> {
     let target = TARGETS.iter().find(|target| target.name == "canary")?;
@@ -30,5 +38,6 @@ mod tests {
     fn the_planted_bug_is_found_and_without_it_there_is_nothing() {
         let found = hunt(1, 200);
         assert_eq!(found.is_some(), IS_PLANTED, "{found:?}");
+        assert!(found.is_none_or(|(_, found)| is_planted(&found.to_string())));
     }
 }

@@ -4,8 +4,8 @@
 //! again. Scenes of code are there for their seams and for being larger than a cut, so that cuts can have nothing to do with each other.
 
 use super::draw::{Dice, events, shape};
-use super::trial::{Look, Trial, builtins, script};
-use super::{Finding, Outcome, guarded};
+use super::trial::{Look, Trial, builtins};
+use super::{Finding, Outcome};
 use crate::engine::wound::WoundEvent;
 use crate::recording::{InlineMesh, Recording, SceneRef};
 
@@ -29,14 +29,6 @@ pub(super) fn run(data: &[u8]) -> Outcome {
         }
         None => Err(Finding::new("scene", "a drawn scene is refused")),
     }
-}
-
-/// The recording as a script.
-pub(super) fn recording(data: &[u8]) -> Option<Vec<u8>> {
-    let mut dice = Dice::new(data);
-    let mut trial = Trial::begin(begin(&mut dice), Look::Nothing)?;
-    guarded(|| draw(&mut trial, &mut dice));
-    Some(script(&trial.recording))
 }
 
 fn begin(dice: &mut Dice<'_>) -> Recording<WoundEvent> {

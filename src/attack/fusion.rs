@@ -3,9 +3,9 @@
 //!
 //! Every string of bytes is a valid input. What is made of it is a recording with the mesh in it.
 
+use super::Outcome;
 use super::draw::{Dice, events, shape};
-use super::trial::{Look, Trial, script};
-use super::{Outcome, guarded};
+use super::trial::{Look, Trial};
 use crate::engine::wound::WoundEvent;
 use crate::recording::{Recording, SceneRef};
 
@@ -31,14 +31,6 @@ pub(super) fn look(data: &[u8], look: Look) -> Outcome {
         }
         None => Err(super::Finding::new("scene", "a drawn mesh is refused")),
     }
-}
-
-/// The recording as a script.
-pub(super) fn recording(data: &[u8]) -> Option<Vec<u8>> {
-    let mut dice = Dice::new(data);
-    let mut trial = Trial::begin(begin(&mut dice), Look::Nothing)?;
-    guarded(|| draw(&mut trial, &mut dice));
-    Some(script(&trial.recording))
 }
 
 fn begin(dice: &mut Dice<'_>) -> Recording<WoundEvent> {

@@ -46,11 +46,6 @@ pub(super) fn run(data: &[u8]) -> Outcome {
     Ok(hits)
 }
 
-/// Meshes are no recordings.
-pub(super) fn recording(_: &[u8]) -> Option<Vec<u8>> {
-    None
-}
-
 fn fault(error: &AssetError, file: &[u8]) -> Result<(), Box<Finding>> {
     let lines = 1 + file.iter().filter(|&&b| b == b'\n').count() as u64;
     let within = match error.fault.place {

@@ -10,7 +10,7 @@
 //! Three things drive the targets: libFuzzer (fuzz/, one thin file a target), the tests, which replay the corpora, and the nightly run.
 //!
 //! Not promised: that a panic is a finding. [`Target::run`] lets it pass, since libFuzzer ends before a stack is unwound; [`Target::attempt`]
-//! makes one of it.
+//! makes one of it. What was being run then is [`under_way`].
 
 pub mod canary;
 mod cuts;
@@ -45,8 +45,6 @@ pub struct Target {
     pub any_bytes: bool,
     /// Runs the bytes, and says what was reached or what broke.
     pub run: fn(&[u8]) -> Outcome,
-    /// The recording or script that the bytes stand for, if they do, whether or not anything breaks: it is there even after a panic.
-    pub recording: fn(&[u8]) -> Option<Vec<u8>>,
 }
 
 /// Every target.
@@ -56,56 +54,48 @@ pub const TARGETS: &[Target] = &[
         about: "bytes to the decoder of recordings, with their checksums put right as well, and to the reader of scripts",
         any_bytes: true,
         run: recording::run,
-        recording: recording::recording,
     },
     Target {
         name: "fusion",
         about: "cuts with ends of chosen kinds into small meshes of hard-rounded coordinates",
         any_bytes: false,
         run: fusion::run,
-        recording: fusion::recording,
     },
     Target {
         name: "cuts",
         about: "sequences of cuts over one another, with undo and redo, into scenes of hostile sizes and places",
         any_bytes: false,
         run: cuts::run,
-        recording: cuts::recording,
     },
     Target {
         name: "paint",
         about: "gathering of faces and surface coordinates against brute force on skins that unroll",
         any_bytes: false,
         run: paint::run,
-        recording: paint::recording,
     },
     Target {
         name: "canary",
         about: "`fusion` with a bug planted in the engine, which must be found; without the bug there is nothing to find",
         any_bytes: false,
         run: fusion::run,
-        recording: fusion::recording,
     },
     Target {
         name: "mesh_files",
         about: "bytes to the readers of OBJ, PLY and glTF; what is read is sound, and reads back as it was written",
         any_bytes: true,
         run: mesh_files::run,
-        recording: mesh_files::recording,
     },
     Target {
         name: "scene",
         about: "bytes to the reader of scenes; what is read frames a square that is cut",
         any_bytes: true,
         run: scene::run,
-        recording: scene::recording,
     },
     Target {
         name: "pick",
         about: "rays on sheets that coincide, before and after edits, by the hierarchy and by brute force",
         any_bytes: false,
         run: pick::run,
-        recording: pick::recording,
     },
 ];
 
@@ -180,19 +170,24 @@ pub fn judge(recording: &AnyRecording) -> Option<String> {
 }
 
 impl Target {
-    /// Runs bytes; a panic is a finding as well, and every finding has its recording where there can be one.
+    /// Runs bytes; a panic is a finding as well.
     pub fn attempt(&self, data: &[u8]) -> Outcome {
-        let ran = catch_unwind(AssertUnwindSafe(|| (self.run)(data)));
-        ran.unwrap_or_else(|panic| Err(Finding::new("panic", said(panic.as_ref())))).map_err(|mut finding| {
-            finding.recording = finding.recording.or_else(|| (self.recording)(data));
-            finding
-        })
+        attempt(|| (self.run)(data))
     }
 }
 
-/// Does something as far as it goes: a panic ends it.
-fn guarded(work: impl FnOnce()) {
-    drop(catch_unwind(AssertUnwindSafe(work)));
+/// The script of what is being run on this thread, up to the event that is under way; none where nothing is. It runs nothing, so that it can be
+/// asked for within a panic.
+pub fn under_way() -> Option<Vec<u8>> {
+    trial::under_way()
+}
+
+/// Runs something; a panic is a finding as well, with the recording that leads to it where one was being run.
+fn attempt(run: impl FnOnce() -> Outcome) -> Outcome {
+    catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|panic| {
+        let finding = Finding::new("panic", said(panic.as_ref()));
+        Err(Box::new(Finding { recording: trial::take_under_way(), ..*finding }))
+    })
 }
 
 /// What a panic says.
@@ -209,10 +204,14 @@ mod tests {
 
     #[test]
     fn a_panic_is_a_finding_with_its_recording() {
-        let broken =
-            Target { run: |_| panic!("at {}", 7), recording: |data| Some(data.to_vec()), ..TARGETS[0] };
+        let broken = Target { run: |_| panic!("at {}", 7), ..TARGETS[0] };
         let finding = broken.attempt(b"x").expect_err("it panics");
-        assert_eq!(*finding, *Finding::new("panic", "at 7").with_recording(*b"x"));
+        assert_eq!(*finding, *Finding::new("panic", "at 7"));
+        let on_the_way = Target { run: |_| trial::broken_off(), ..TARGETS[0] };
+        let finding = on_the_way.attempt(b"x").expect_err("it panics");
+        let script = String::from_utf8(finding.recording.expect("there is one")).expect("a text");
+        assert!(script.contains("\"cut\"") && script.contains("builtin:slab"), "{script}");
+        assert_eq!(under_way(), None, "it was taken");
     }
 
     #[test]

@@ -43,11 +43,6 @@ pub(super) fn run(data: &[u8]) -> Outcome {
     Ok(hits)
 }
 
-/// Sheets and rays are no recording: a ray need not go through a pixel.
-pub(super) fn recording(_: &[u8]) -> Option<Vec<u8>> {
-    None
-}
-
 fn scene() -> Scene {
     Scene {
         viewport: [64, 64],

@@ -23,11 +23,6 @@ pub(super) fn run(data: &[u8]) -> Outcome {
     Ok(hits)
 }
 
-/// The bytes themselves, if they begin as a recording or are a script.
-pub(super) fn recording(data: &[u8]) -> Option<Vec<u8>> {
-    (read(data).is_ok() || Script::parse(data).is_ok()).then(|| data.to_vec())
-}
-
 fn file(what: &str, bytes: &[u8], hits: &mut Hits) -> Result<(), Box<Finding>> {
     match read(bytes) {
         Ok(recording) => {
@@ -132,7 +127,5 @@ mod tests {
         (0..FIXTURE.len()).for_each(|end| drop(run(&FIXTURE[..end]).expect("no finding")));
         let script = include_bytes!("../../tests/fixtures/recordings/v1.json");
         assert!(run(script).expect("no finding").0.contains_key("script read"));
-        assert_eq!(recording(script).as_deref(), Some(&script[..]));
-        assert_eq!(recording(b"neither"), None);
     }
 }

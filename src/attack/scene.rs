@@ -39,11 +39,6 @@ pub(super) fn run(data: &[u8]) -> Outcome {
     Ok(hits)
 }
 
-/// Scenes are no recordings.
-pub(super) fn recording(_: &[u8]) -> Option<Vec<u8>> {
-    None
-}
-
 fn within(fault: &Fault, data: &[u8]) -> Result<(), Box<Finding>> {
     let lines = 1 + data.iter().filter(|&&b| b == b'\n').count() as u64;
     match fault.place {

@@ -3,6 +3,7 @@
 //! An oracle needs nothing but the recording: which of the symmetries is tried at an event follows from its place. So a finding is found again when its
 //! recording is judged ([`judge`]), and can be reduced.
 
+use std::cell::RefCell;
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -18,6 +19,23 @@ use crate::replay::{event_seed, wound_scene};
 
 /// Width and height of the view.
 const VIEWPORT: [u32; 2] = [640, 360];
+
+thread_local! {
+    /// What is being run.
+    static UNDER_WAY: RefCell<Option<Recording<WoundEvent>>> = const { RefCell::new(None) };
+}
+
+/// See [`super::under_way`].
+pub(super) fn under_way() -> Option<Vec<u8>> {
+    UNDER_WAY.try_with(|running| running.try_borrow().ok()?.as_ref().map(script)).ok()?
+}
+
+/// The same, which is over then.
+pub(super) fn take_under_way() -> Option<Vec<u8>> {
+    let script = under_way();
+    UNDER_WAY.set(None);
+    script
+}
 
 /// A scene as it is before any event.
 #[derive(Clone)]
@@ -43,7 +61,7 @@ pub(super) fn builtins() -> [&'static str; 6] {
 
 impl Ground {
     /// The scene that a recording names, if there is one.
-    fn of(recording: &Recording<WoundEvent>) -> Option<Self> {
+    pub(super) fn of(recording: &Recording<WoundEvent>) -> Option<Self> {
         let known = match &recording.scene {
             SceneRef::Builtin(name) => BUILTINS.iter().find(|row| row.0 == name),
             _ => None,
@@ -130,6 +148,7 @@ impl Trial {
     fn run_keyed(&mut self, key: u32, event: WoundEvent) {
         self.recording.events.push(Keyed { key, event: event.clone() });
         if self.finding.is_none() {
+            UNDER_WAY.set(Some(self.recording.clone()));
             self.step(key, &event);
         }
     }
@@ -198,6 +217,7 @@ impl Trial {
             None if self.look != Look::Everything => Ok(()),
             None => oracle::whole(&self.ground, &self.recording, &self.state, &mut self.hits),
         };
+        UNDER_WAY.set(None);
         match found {
             Ok(()) => Ok(self.hits),
             Err(finding) => Err(finding.with_recording(script(&self.recording))),
@@ -212,6 +232,16 @@ pub(super) fn judge(recording: &Recording<WoundEvent>) -> Outcome {
     };
     recording.events.iter().for_each(|keyed| trial.run_keyed(keyed.key, keyed.event.clone()));
     trial.end()
+}
+
+/// A panic on the way.
+#[cfg(test)]
+pub(super) fn broken_off() -> Outcome {
+    let mut trial = Trial::begin(Trial::blank(SceneRef::Builtin("slab".into()), 1), Look::Nothing)
+        .expect("there is such a scene");
+    let [from, to] = [0, 1].map(|n| crate::engine::wound::Pick::Node(crate::mesh::NodeId::of(n)));
+    trial.run(WoundEvent::Cut { from, to });
+    panic!("on the way")
 }
 
 /// A recording as a script.

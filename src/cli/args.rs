@@ -13,7 +13,9 @@ use clap::{Parser, Subcommand, ValueEnum, ValueHint};
 use crate::report::Stop;
 pub(super) use measure::{Accuracy, Measure, MeasureOptions, Measured};
 pub(super) use nightly::Nightly;
-pub(super) use tui::{Ground, ImageProtocol, Tui};
+pub(super) use tui::Tui;
+#[cfg(feature = "tui")]
+pub(super) use tui::{Ground, ImageProtocol};
 pub(super) use values::{Setting, Size, Target, Until};
 pub(super) use verify::{Bless, Merge, Reports, Verify};
 

@@ -40,7 +40,9 @@ fn show(report: &BlessReport, dry_run: bool, to: &mut Channel<'_>) -> io::Result
     if !others.is_empty() {
         table.write(to)?;
     }
-    let rest = report.orphans.iter().chain(&report.errors);
+    // What lies beside goldens that are as they were has no row.
+    let beside = same.iter().flat_map(|recording| &recording.goldens);
+    let rest = report.orphans.iter().chain(&report.errors).chain(beside);
     rest.into_iter().try_for_each(|problem| writeln!(to, "{} {}", to.bad("problem:"), printable(problem)))?;
     let written = others.iter().filter(|r| r.change != Change::Refused).count();
     let verb = if dry_run { "would be written" } else { "written" };

@@ -11,7 +11,13 @@ use crate::render::{self, Choice};
 pub(super) fn run(console: &mut Console<'_>) -> Done {
     let build = if cfg!(debug_assertions) { "debug" } else { "release" };
     let canary = cfg!(feature = "canary");
-    let features = [("gltf", cfg!(feature = "gltf")), ("gpu", cfg!(feature = "gpu")), ("canary", canary)];
+    let features = [
+        ("attack", cfg!(feature = "attack")),
+        ("canary", canary),
+        ("gltf", cfg!(feature = "gltf")),
+        ("gpu", cfg!(feature = "gpu")),
+        ("tui", cfg!(feature = "tui")),
+    ];
     let features: Vec<&str> = features.into_iter().filter(|(_, on)| *on).map(|(name, _)| name).collect();
     let gpu = render::studio(Choice::Gpu).map_or_else(|error| error.to_string(), |s| s.adapter().to_string());
     let threads = available_parallelism().map_or_else(|e| e.to_string(), |n| n.to_string());

@@ -25,7 +25,7 @@ pub(super) fn write(
 pub(super) fn put(bytes: &[u8], target: &Target, console: &mut Console<'_>) -> Result<(), Failure> {
     match target {
         Target::Stdout => Ok(console.out.write_all(bytes)?),
-        Target::File(path) => Ok(assets::write_file(path, bytes)?),
+        Target::File(path) => Ok(assets::write_output(path, bytes)?),
     }
 }
 

@@ -52,7 +52,10 @@ pub(super) fn run(typed: &Measure, console: &mut Console<'_>) -> Done {
 
 fn accuracy(typed: &Accuracy, console: &mut Console<'_>) -> Done {
     let studio = studio(typed.renderer, console)?;
-    let stored = typed.against.as_deref().filter(|_| !typed.bless).map(read_curves).transpose()?;
+    // What is blessed of every subject takes the place of whatever stood there.
+    let is_there = |file: &Path| !matches!(file.try_exists(), Ok(false));
+    let is_read = |file: &&Path| !typed.bless || (!typed.only.is_empty() && is_there(file));
+    let stored = typed.against.as_deref().filter(is_read).map(read_curves).transpose()?;
     let ask = Ask {
         quick: typed.common.quick,
         rounds: or_else(typed.rounds, &typed.common, [30, 8]),
@@ -64,17 +67,32 @@ fn accuracy(typed: &Accuracy, console: &mut Console<'_>) -> Done {
     if let Some(folder) = &typed.plot {
         write_plots(&report, folder)?;
     }
-    let mut faults = report.untrusted();
-    match (&typed.against, &typed.reason, stored) {
-        (Some(file), Some(reason), None) if faults.is_empty() => {
-            assets::write_file(file, &Stored::of(&report, reason).text())?;
-        }
-        (.., Some(stored)) => faults.extend(stored.compare(&report)),
-        _ => {}
-    }
+    let faults = gate(typed, stored, &report)?;
     let to = json::text([&typed.common.json], console);
     faults.iter().try_for_each(|fault| writeln!(to, "{} {fault}", to.bad("finding:")))?;
     Ok(if faults.is_empty() { Status::Verified } else { Status::Diverged })
+}
+
+/// What is wrong with curves, by themselves and against those of a file. Those with which nothing is are written into it, where it is blessed.
+fn gate(typed: &Accuracy, stored: Option<Stored>, report: &AccuracyReport) -> Result<Vec<String>, Failure> {
+    let mut faults = report.untrusted();
+    match (&typed.against, &typed.reason) {
+        (Some(file), Some(reason)) if faults.is_empty() => match blessed(stored, report, reason) {
+            Ok(blessed) => assets::write_file(file, &blessed.text())?,
+            Err(fault) => faults.push(fault),
+        },
+        (_, Some(_)) => {}
+        (_, None) => faults.extend(stored.iter().flat_map(|stored| stored.compare(report))),
+    }
+    Ok(faults)
+}
+
+/// What a file holds once it is blessed.
+fn blessed(stored: Option<Stored>, report: &AccuracyReport, reason: &str) -> Result<Stored, String> {
+    match stored {
+        Some(stored) => stored.merged(report, reason),
+        None => Ok(Stored::of(report, reason)),
+    }
 }
 
 fn read_curves(file: &Path) -> Result<Stored, Failure> {

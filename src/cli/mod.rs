@@ -73,6 +73,7 @@ type Done = Result<Status, Failure>;
 
 /// Runs the program with its arguments, the first of which is its name.
 pub fn run(arguments: impl IntoIterator<Item = OsString>, console: &mut Console<'_>) -> Status {
+    crate::assets::begin_outputs();
     match Args::try_parse_from(arguments) {
         Ok(args) => finish(dispatch(args.command, console), console),
         Err(error) => explain(&error, console),

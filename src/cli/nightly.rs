@@ -17,7 +17,7 @@ pub(super) fn run(typed: &Nightly, console: &mut Console<'_>) -> Done {
     let jobs = jobs(typed.jobs);
     let night = Night {
         time: typed.time.0,
-        seed: typed.seed,
+        seed: typed.seed.unwrap_or_else(day),
         jobs,
         recordings: typed.paths.clone(),
         verify: VerifyOptions { jobs, studio: Some(studio.into()), ..VerifyOptions::default() },
@@ -31,6 +31,13 @@ pub(super) fn run(typed: &Nightly, console: &mut Console<'_>) -> Done {
     json::write(&report, typed.json.as_ref(), console)?;
     show(&report, json::text([&typed.json], console))?;
     Ok(status(report.exit_code()))
+}
+
+/// Days since the beginning of 1970.
+#[cfg(feature = "attack")]
+fn day() -> u64 {
+    use std::time::{SystemTime, UNIX_EPOCH};
+    SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs() / 86_400)
 }
 
 #[cfg(feature = "attack")]

@@ -31,7 +31,7 @@ pub(super) fn choice(typed: Renderer) -> Choice {
 /// Writes a picture.
 pub(super) fn write(image: &Image, path: &Path) -> Result<(), Failure> {
     let bytes = assets::write_png(image).map_err(|error| Failure::about(path)(&error))?;
-    Ok(assets::write_file(path, &bytes)?)
+    Ok(assets::write_output(path, &bytes)?)
 }
 
 /// What a replay that gave no picture has to say for itself.

@@ -1,6 +1,6 @@
 //! Where scenes lie, seen from another folder.
 
-use std::path::{Path, absolute};
+use std::path::Path;
 
 use super::args::Target;
 use super::failure::Failure;
@@ -17,8 +17,8 @@ pub(super) fn moved(scene: &SceneRef, from: &Path, target: &Target) -> Result<Sc
 
 /// An answer must not be written over what it was asked of.
 pub(super) fn require_other(input: &Path, output: &Path) -> Result<(), Failure> {
-    let same = absolute(input).ok().zip(absolute(output).ok()).is_some_and(|(a, b)| a == b);
-    if same {
+    // Known before anything is run; what else is read on the way is known when the answer is written.
+    if assets::is_same_file(input, output) {
         Err(Failure::new(format_args!("{}: would be written over its own input", output.display())))
     } else {
         Ok(())

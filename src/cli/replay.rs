@@ -143,6 +143,7 @@ fn write(
     }
     if let Some(path) = &typed.export_mesh {
         let mesh = replay.mesh().ok_or_else(|| Failure::new("this engine has no mesh to export"))?;
+        assets::claim_output(path)?;
         assets::export::save(mesh, path)?;
     }
     Ok(show::run(report, json::text([&typed.json, &typed.trace], console))?)

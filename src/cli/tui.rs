@@ -87,9 +87,9 @@ fn screen(
     let buffer = stage.screen();
     match target {
         Target::File(path) if is_picture => {
-            assets::write_file(path, screen::to_svg(&buffer, &theme).as_bytes())?
+            assets::write_output(path, screen::to_svg(&buffer, &theme).as_bytes())?
         }
-        Target::File(path) => assets::write_file(path, screen::to_text(&buffer).as_bytes())?,
+        Target::File(path) => assets::write_output(path, screen::to_text(&buffer).as_bytes())?,
         Target::Stdout => console.out.write_all(screen::to_text(&buffer).as_bytes())?,
     }
     status(&stage)

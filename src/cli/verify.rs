@@ -10,7 +10,7 @@ use super::args::{Reports, Target, Verify};
 use super::console::{Channel, Work};
 use super::failure::Failure;
 use super::table::{Cell, TextTable};
-use super::{Console, Done, Status, json, pixels};
+use super::{Console, Done, Status, json, pixels, place};
 use crate::assets;
 use crate::canvas::Studio;
 use crate::replay::Options;
@@ -27,12 +27,20 @@ pub(super) fn no_planted_bug() -> Result<(), Failure> {
 
 pub(super) fn run(typed: &Verify, console: &mut Console<'_>) -> Done {
     no_planted_bug()?;
+    let answers = [&typed.blob, &typed.to.json, &typed.to.junit];
+    let files = answers.into_iter().filter_map(|answer| match answer {
+        Some(Target::File(path)) => Some(path),
+        _ => None,
+    });
+    for file in files {
+        typed.paths.iter().try_for_each(|path| place::require_other(path, file))?;
+    }
     let options = meaning(typed, pixels::studio(typed.pixels.renderer, console)?.into());
     let blob = verify::verify_to_blob(&typed.paths, &options, &Line::on(&mut console.err));
     if let Some(target) = &typed.blob {
         json::put(&blob.text(), target, console)?;
     }
-    deliver(&blob, &typed.to, [&typed.blob, &typed.to.json, &typed.to.junit], console)
+    deliver(&blob, &typed.to, answers, console)
 }
 
 /// What was typed means this.

@@ -60,17 +60,41 @@ pub fn unit_normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     (normal / largest(normal)).try_normalize()
 }
 
-/// Distance from a point to a triangle's plane; to its nearest corner where the triangle has no area.
+/// Below this part of the product of two sides even doubled digits have lost too many.
+const LOST_DOUBLED: f64 = 1e-14;
+
+/// Distance from a point to a triangle's plane, within a part of an ulp of the coordinates; to its nearest corner where the triangle has no area.
 ///
-/// With doubled digits: in floats alone the normal of a sliver would be off by more than what is measured.
+/// With doubled digits, or exactly: in floats alone the normal of a sliver would be off by more than what is measured.
 pub fn distance_to_plane(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
-    let normal = double::cross(double::difference(b, a), double::difference(c, a));
+    let largest = |v: DVec3| v.abs().max_element();
+    let mut normal = double::cross(double::difference(b, a), double::difference(c, a));
+    if largest(double::rounded(normal)) <= LOST_DOUBLED * largest(b - a) * largest(c - a) {
+        normal = exact::direction(&exact::cross(&exact::difference(b, a), &exact::difference(c, a)));
+    }
     let rounded = double::rounded(normal);
     // Scaled first: the square of a tiny normal would underflow.
-    let largest = rounded.abs().max_element();
-    if largest > 0.0 {
-        (double::dot(normal, double::difference(p, a)).value() / largest / (rounded / largest).length()).abs()
+    let size = largest(rounded);
+    if size > 0.0 {
+        (double::dot(normal, double::difference(p, a)).value() / size / (rounded / size).length()).abs()
     } else {
         p.distance(a).min(p.distance(b)).min(p.distance(c))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_plane_of_a_triangle_thinner_than_doubled_digits_is_its_plane() {
+        // 1e-25 high over a side of length 2, and as little tilted: a point beside the side is as far as it is out of the plane.
+        let tall = 1e-25;
+        let triangle = [DVec3::new(-1.0, 0.1, 0.0), DVec3::new(1.0, -0.1, 0.0), DVec3::new(0.5, -0.05, tall)];
+        let p = DVec3::new(0.7, -0.07 + 1e-12, 0.0);
+        let expected = 1e-12 * 2.0 / DVec3::new(2.0, -0.2, 0.0).length();
+        let found = distance_to_plane(p, triangle);
+        assert!((found - expected).abs() < 1e-3 * expected, "{found} {expected}");
+        assert!(distance_to_plane(triangle[2], triangle) < 1e-30);
     }
 }

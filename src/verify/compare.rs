@@ -200,7 +200,10 @@ impl<'a> Differing<'a> {
         let Some((stage, buffer)) = self.fact.name.split_once('.') else { return };
         (divergence.stage, divergence.buffer) = (Some(stage.into()), Some(buffer.into()));
         let values = values.ok_or("the values beside the golden cannot be read");
-        let changed = find(found, event, stage, buffer).ok_or("the run has no such buffer");
+        let changed = find(found, event, stage, buffer).ok_or(match found.deltas.is_empty() {
+            true => "a report has the digests of buffers, and not what is in them",
+            false => "the run has no such buffer",
+        });
         match values.and_then(|values| values.first_difference(event, stage, changed?)) {
             Ok(first) => {
                 divergence.element = Some(first.element);

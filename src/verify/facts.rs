@@ -269,16 +269,21 @@ pub(super) fn parse(text: &[u8]) -> Result<Vec<Fact>, String> {
     if lines.next().is_none_or(|(_, line)| line != HEAD) {
         return Err(format!("line 1: it does not begin with `{HEAD}`"));
     }
-    let mut facts = Vec::new();
+    let (mut facts, mut said) = (Vec::new(), BTreeSet::new());
     for (at, line) in lines.filter(|(_, line)| !REMARKS.iter().any(|remark| line.starts_with(remark))) {
         if let Some(count) = line.strip_prefix("facts = ") {
-            return if count == facts.len().to_string() {
-                Ok(facts)
-            } else {
-                Err(format!("line {}: it holds {} facts, not {count}", at + 1, facts.len()))
-            };
+            if count != facts.len().to_string() {
+                return Err(format!("line {}: it holds {} facts, not {count}", at + 1, facts.len()));
+            }
+            let beyond = text.lines().enumerate().skip(at + 1).find(|(_, line)| !line.is_empty());
+            return beyond
+                .map_or(Ok(facts), |(at, line)| Err(format!("line {}: `{line}` is beyond its end", at + 1)));
         }
-        facts.push(Fact::parse(line).ok_or_else(|| format!("line {}: `{line}` is no fact", at + 1))?);
+        let fact = Fact::parse(line).ok_or_else(|| format!("line {}: `{line}` is no fact", at + 1))?;
+        if !said.insert(fact.key()) {
+            return Err(format!("line {}: `{}` is said twice", at + 1, fact.key()));
+        }
+        facts.push(fact);
     }
     Err("its end is missing".into())
 }
@@ -352,6 +357,12 @@ mod tests {
         assert_eq!(parse(without_a_line.as_bytes()), Err("line 17: it holds 12 facts, not 13".into()));
         let garbled = text.replace("end euler = 2", "end euler is 2");
         assert_eq!(parse(garbled.as_bytes()), Err("line 8: `end euler is 2` is no fact".into()));
+        let beyond = format!("{text}\n<<<<<<< HEAD\n");
+        assert_eq!(parse(beyond.as_bytes()), Err("line 20: `<<<<<<< HEAD` is beyond its end".into()));
+        let twice = text
+            .replace("end euler = 2\n", "end euler = 2\nend euler = 4\n")
+            .replace("facts = 13", "facts = 14");
+        assert_eq!(parse(twice.as_bytes()), Err("line 9: `end euler` is said twice".into()));
         assert!(parse(&[b'l', 0xff]).is_err_and(|e| e.starts_with("byte 1")));
         assert!(parse(b"lancet golden 2\nfacts = 0\n").is_err_and(|e| e.starts_with("line 1")));
     }

@@ -5,7 +5,7 @@
 //! | verify | every recording against its goldens | as long as it takes |
 //! | stability | random and hostile cuts, in rounds with a seed each | an eighth of what is left |
 //! | canary | a program with a planted bug, which must be found: else the night does not count | a minute at most |
-//! | fuzz TARGET | libFuzzer, or a [`super::storm`] where there is none; as many at a time as there are jobs | the rest, in equal shares |
+//! | fuzz TARGET | libFuzzer, or a [`super::storm`] where there is none; as many at a time as there are jobs | the rest, in equal shares: each as long as any other |
 //! | reached | the corpora, old and new, run again: what the night reached | as long as it takes |
 //! | matrix | configurations and degenerate cases among that, and drawn until none is missing | an eighth |
 //!
@@ -26,7 +26,10 @@ use std::time::{Duration, Instant};
 
 pub use report::{NightFinding, NightReport, Part, Verdict};
 
+use fuzzers::{Missing, Tool};
+
 use super::{Hits, TARGETS, Target};
+use crate::measure::Random;
 use crate::verify::VerifyOptions;
 
 /// What a night is to do.
@@ -65,10 +68,13 @@ impl Night {
         report.parts.push(timed("verify", progress, || parts::verify(self)));
         let small = self.time.saturating_sub(clock.elapsed()) / SMALL_SHARE;
         report.parts.push(timed("stability", progress, || parts::stability(self, small)));
-        let tool = fuzzers::Tool::find(&self.fuzz, progress);
+        let tool = Tool::find(&self.fuzz, progress);
         report.parts.push(timed("canary", progress, || match &tool {
             Ok(tool) => tool.canary(self, progress),
-            Err(why) => Part::skipped(format!("{why}: no second program with the bug in it")),
+            Err(Missing::Absent(why)) => {
+                Part::skipped(format!("{why}: no second program with the bug in it"))
+            }
+            Err(Missing::Broken(why)) => Part::unable(why),
         }));
         report.parts.extend(self.fuzz_all(&tool, clock, small, progress));
         let mut reached = Reached::default();
@@ -83,10 +89,15 @@ impl Night {
         report
     }
 
-    /// Every target, as many at a time as there are jobs. What one leaves over of its share is shared by those after it.
+    /// What the chance of one part comes from: that of two parts, rounds or nights has nothing in common.
+    fn seed_of(&self, part: &str, round: u64) -> u64 {
+        Random::of(self.seed, round, part).any()
+    }
+
+    /// Every target, as many at a time as there are jobs, and each for as long as any other.
     fn fuzz_all(
         &self,
-        tool: &Result<fuzzers::Tool, String>,
+        tool: &Result<Tool, Missing>,
         clock: Instant,
         reserved: Duration,
         progress: Progress<'_>,
@@ -94,13 +105,14 @@ impl Night {
         // Without its bug the canary is another target's double.
         let targets: Vec<&'static Target> = TARGETS.iter().filter(|target| target.name != CANARY).collect();
         let jobs = self.jobs.clamp(1, targets.len());
+        let left = self.time.saturating_sub(clock.elapsed() + reserved);
+        let share = left / u32::try_from(targets.len().div_ceil(jobs)).unwrap_or(1);
         let one = |number: usize| {
             let target = *targets.get(number)?;
-            let left = self.time.saturating_sub(clock.elapsed() + reserved);
-            let share = left / u32::try_from((targets.len() - number).div_ceil(jobs)).unwrap_or(1);
             Some(timed(&format!("fuzz {}", target.name), progress, || match tool {
                 Ok(tool) => tool.fuzz(self, target, share),
-                Err(why) => parts::storm(self, target, share, why),
+                Err(Missing::Absent(why)) => parts::storm(self, target, share, why),
+                Err(Missing::Broken(why)) => Part::unable(why.clone()),
             }))
         };
         let (next, done) = (AtomicUsize::new(0), Mutex::new(BTreeMap::new()));
@@ -139,6 +151,24 @@ fn timed(name: &str, progress: Progress<'_>, part: impl FnOnce() -> Part) -> Par
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn parts_rounds_and_nights_have_seeds_of_their_own() {
+        let night = |seed| Night {
+            time: Duration::ZERO,
+            seed,
+            jobs: 1,
+            recordings: Vec::new(),
+            verify: VerifyOptions::default(),
+            fuzz: PathBuf::new(),
+            findings: PathBuf::new(),
+        };
+        let seeds = [(4, "stability", 1), (5, "stability", 0), (4, "pick", 0), (5, "pick", 0)];
+        let mut all = seeds.map(|(seed, part, round)| night(seed).seed_of(part, round));
+        all.sort_unstable();
+        assert!(all.windows(2).all(|pair| pair[0] != pair[1]), "{all:?}");
+        assert_eq!(night(4).seed_of("pick", 0), night(4).seed_of("pick", 0));
+    }
 
     #[test]
     fn a_short_night_without_libfuzzer_does_every_part() {

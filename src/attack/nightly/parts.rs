@@ -17,6 +17,8 @@ const FIRST_CUTS: usize = 100;
 const MOST_CUTS: usize = 12_800;
 /// Cuts on every rung of the ladders, a round.
 const PER_RUNG: usize = 20;
+/// The shortest time that has room for the ladders, which take some ten seconds a round.
+const LADDERS: Duration = Duration::from_secs(20);
 /// Inputs between two looks at the clock.
 const GUST: usize = 16;
 
@@ -40,13 +42,14 @@ pub(super) fn verify(night: &Night) -> Part {
     }
 }
 
-/// Rounds of random cuts until the time is up, one at least; each with a seed of its own.
+/// Rounds of random cuts until the time is up, one at least; each with a seed of its own. Where there is time for them, with the ladders.
 pub(super) fn stability(night: &Night, time: Duration) -> Part {
     let (clock, mut cuts, mut findings) = (Instant::now(), 0, Vec::new());
+    let per_rung = if time < LADDERS { 0 } else { PER_RUNG };
     for round in 0u64.. {
         let in_round = (FIRST_CUTS << round.min(7)).min(MOST_CUTS);
-        let seed = night.seed.wrapping_add(round);
-        let options = stability::Options { cuts: in_round, per_rung: PER_RUNG, seed, jobs: night.jobs };
+        let seed = night.seed_of("stability", round);
+        let options = stability::Options { cuts: in_round, per_rung, seed, jobs: night.jobs };
         let report = match stability::measure(&options, &|_, _, _| {}) {
             Ok(report) => report,
             Err(error) => return Part::unable(error.to_string()),
@@ -61,7 +64,8 @@ pub(super) fn stability(night: &Night, time: Duration) -> Part {
             break;
         }
     }
-    Part::ran(cuts, format!("a seed for each round, from {}", night.seed), findings)
+    let ladders = if per_rung == 0 { ", no time for ladders" } else { "" };
+    Part::ran(cuts, format!("a seed for each round, from {}{ladders}", night.seed), findings)
 }
 
 /// A target without libFuzzer, until the time is up or something is found.
@@ -69,7 +73,7 @@ pub(super) fn storm(night: &Night, target: &'static Target, time: Duration, why:
     let clock = Instant::now();
     let seeds: Vec<Vec<u8>> =
         inputs(&night.fuzz.join("corpus").join(target.name)).map(|input| input.1).collect();
-    let mut storm = Storm::new(target, seeds, night.seed);
+    let mut storm = Storm::new(target, seeds, night.seed_of(target.name, 0));
     let mut findings = Vec::new();
     while findings.is_empty() && (storm.runs == 0 || clock.elapsed() < time) {
         if let Some((finding, data)) = (0..GUST).find_map(|_| storm.round().err()) {
@@ -100,7 +104,7 @@ fn keep(night: &Night, target: &Target, finding: &Finding, data: &[u8]) -> Night
 pub(super) fn reached(night: &Night, hits: &mut Reached) -> Part {
     let (mut count, mut findings) = (0, Vec::new());
     for target in TARGETS {
-        let folders = [night.fuzz.join("corpus").join(target.name), new_inputs(night, target)];
+        let folders = [night.fuzz.join("corpus").join(target.name), new_inputs(night, target.name)];
         for (name, data) in folders.iter().flat_map(|folder| inputs(folder)) {
             count += 1;
             match target.attempt(&data) {
@@ -125,7 +129,7 @@ pub(super) fn matrix(night: &Night, reached: &Hits, time: Duration) -> (Part, Ma
     let (clock, mut drawn, mut findings) = (Instant::now(), 0, Vec::new());
     let (mut matrix, mut hits) = (Matrix::of(reached), reached.clone());
     while !matrix.empty().is_empty() && clock.elapsed() < time {
-        match matrix::sweep(night.seed.wrapping_add(drawn), GUST) {
+        match matrix::sweep(night.seed_of("matrix", drawn), GUST) {
             Ok(more) => {
                 hits.add(&more);
                 matrix = Matrix::of(&hits);
@@ -147,12 +151,13 @@ pub(super) fn matrix(night: &Night, reached: &Hits, time: Duration) -> (Part, Ma
         detail: format!("{} {}: {what}", cell.configuration, cell.degeneracy.title()),
         file: None,
     }));
-    (Part::ran(drawn, format!("{} cells", matrix.cells.len()), findings), matrix)
+    let short = if matrix.empty().is_empty() { "" } else { "; the time was up before all were met" };
+    (Part::ran(drawn, format!("{} cells{short}", matrix.cells.len()), findings), matrix)
 }
 
 /// Where libFuzzer puts what it makes of a target in this night.
-pub(super) fn new_inputs(night: &Night, target: &Target) -> std::path::PathBuf {
-    night.findings.join("corpus").join(target.name)
+pub(super) fn new_inputs(night: &Night, target: &str) -> std::path::PathBuf {
+    night.findings.join("corpus").join(target)
 }
 
 /// The files of a corpus, by name; those that cannot be read are none.

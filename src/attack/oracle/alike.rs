@@ -1,7 +1,7 @@
 //! The line does not depend on what axes are called, which way is left, where zero is, where a face's corners begin, or from which end one goes.
 //!
 //! Signs stay exactly, or all turn around; lengths are rounded otherwise. So the constructs along the line must be the same, unless two ways from
-//! pick to pick are equally long, or something was snapped (which goes by rounded distances). A shift counts only where no
+//! pick to pick are equally long (which rational arithmetic has to confirm of both), or something was snapped (which goes by rounded distances). A shift counts only where no
 //! coordinate, nor the eye or a pick, is rounded by it.
 
 use glam::DVec3;
@@ -10,12 +10,13 @@ use super::exact::is_by_ids;
 use super::map::Map;
 use super::rational::is_rounded;
 use super::{Verdict, Witness, require};
-use crate::attack::Hits;
+use crate::attack::{Finding, Hits};
 use crate::engine::wound::chain::{At, Chain};
 use crate::engine::wound::form::trace;
 use crate::engine::wound::plane::CutPlane;
 use crate::engine::wound::{Cut, Pick, State, Work, Wound, WoundEvent, pick};
 use crate::engine::{Engine, Start};
+use crate::measure::exact::{Question, compare_chain};
 use crate::mesh::{Face, FaceId};
 use crate::report::Rejection;
 
@@ -36,65 +37,57 @@ enum Way {
 
 pub(super) fn look(witness: &Witness<'_>, hits: &mut Hits) -> Verdict {
     let (Some(cut), true) = (witness.ran.cut(), is_by_ids(witness.event)) else { return Ok(()) };
-    let way = choose(witness.key);
+    let way = choose(witness.seed);
     let eye = match way {
         Way::Mapped(map) if map.shift != DVec3::ZERO => (cut.eye * GRID).round() / GRID,
         _ => cut.eye,
     };
-    let mine = form(&mut witness.before.clone(), witness.event, eye);
+    let mine = form(witness.before.clone(), witness.event, eye);
     let Some(theirs) = otherwise(way, witness, eye) else { return Ok(()) };
     hits.note("oracle alike");
-    compare(way, mine, theirs)
+    compare(way, &mine, &theirs)
 }
 
-fn choose(key: u32) -> Way {
+fn choose(seed: u64) -> Way {
     let mapped = |axes, factors: [f64; 3], shift: [f64; 3]| {
         Way::Mapped(Map { axes, factors: DVec3::from(factors), shift: DVec3::from(shift) })
     };
     let none = [0.0; 3];
-    match key % 8 {
+    // Other bits than those by which the exact maps are chosen.
+    match seed >> 32 & 7 {
         0 => mapped([1, 2, 0], [1.0; 3], none),
         1 => mapped([1, 0, 2], [1.0, 1.0, -1.0], none),
         2 => Way::Turned,
         3 => Way::Back,
         4 => mapped([0, 1, 2], [-1.0, 1.0, 1.0], none),
         5 => mapped([0, 1, 2], [1.0; 3], [3.0, -64.0, 1024.0]),
-        6 => mapped([2, 1, 0], [1.0, -1.0, 0.25], none).uniform(),
+        6 => mapped([2, 1, 0], [1.0, -1.0, 1.0], none),
         _ => mapped([0, 1, 2], [1.0; 3], [-1_048_576.0, 0.5, 16.0]),
-    }
-}
-
-impl Way {
-    /// The same with all factors of one size.
-    fn uniform(self) -> Self {
-        match self {
-            Self::Mapped(map) => Self::Mapped(Map { factors: map.factors.signum(), ..map }),
-            other => other,
-        }
     }
 }
 
 /// What FC made of a cut: its line, or why there is none; and whether rounding had a say in that.
 struct Form {
+    state: State,
     cut: Result<Box<Cut>, Rejection>,
     rounded: bool,
 }
 
 /// FC alone, taken back again.
-fn form(state: &mut State, event: &WoundEvent, eye: DVec3) -> Form {
-    let none = || Form { cut: Err(Rejection::new("none", "it is no cut")), rounded: false };
-    let Start::Run(mut work) = Wound::start(state, event, 0) else { return none() };
+fn form(mut state: State, event: &WoundEvent, eye: DVec3) -> Form {
+    let none = |state| Form { state, cut: Err(Rejection::new("none", "it is no cut")), rounded: false };
+    let Start::Run(mut work) = Wound::start(&mut state, event, 0) else { return none(state) };
     if let Work::Cut(cut) = &mut work {
         cut.eye = eye;
     }
-    let ran = (Wound::STAGES[0].run)(state, &mut work);
-    Wound::rollback(state, &mut work);
-    let Work::Cut(cut) = work else { return none() };
+    let ran = (Wound::STAGES[0].run)(&mut state, &mut work);
+    Wound::rollback(&mut state, &mut work);
+    let Work::Cut(cut) = work else { return none(state) };
     let rounded = match &ran {
         Ok(()) => is_rounded(&cut),
-        Err(rejection) => was_snapped(state, &cut, rejection),
+        Err(rejection) => was_snapped(&state, &cut, rejection),
     };
-    Form { cut: ran.map(|()| cut), rounded }
+    Form { state, cut: ran.map(|()| cut), rounded }
 }
 
 /// Whether a cut was rejected for what it was snapped to: without that there is a line, or there is none for another reason.
@@ -115,19 +108,17 @@ fn otherwise(way: Way, witness: &Witness<'_>, eye: DVec3) -> Option<Form> {
             let all = witness.before.mesh.positions().iter().chain([&eye]).chain(&mine);
             let is_same =
                 all.into_iter().all(|p| map.is_exact_at(*p)) && theirs == mine.map(|p| map.point(p));
-            is_same.then(|| form(&mut image, witness.event, map.point(eye)))
+            is_same.then(|| form(image, witness.event, map.point(eye)))
         }
         Way::Turned => {
             let (mut image, event) = turned(witness)?;
             let is_same = through(&mut image, &event)? == mine;
-            is_same.then(|| form(&mut image, &event, eye))
+            is_same.then(|| form(image, &event, eye))
         }
         Way::Back => {
             let WoundEvent::Cut { from, to } = *witness.event else { return None };
             let event = WoundEvent::Cut { from: to, to: from };
-            let mut formed = form(&mut witness.before.clone(), &event, eye);
-            formed.cut.iter_mut().for_each(|cut| cut.formed.chain.points.reverse());
-            Some(formed)
+            Some(form(witness.before.clone(), &event, eye))
         }
     }
 }
@@ -160,12 +151,19 @@ fn turned(witness: &Witness<'_>) -> Option<(State, WoundEvent)> {
     }
 }
 
-fn compare(way: Way, mine: Form, theirs: Form) -> Verdict {
+fn compare(way: Way, mine: &Form, theirs: &Form) -> Verdict {
     if mine.rounded || theirs.rounded {
         return Ok(());
     }
     match (&mine.cut, &theirs.cut) {
-        (Ok(a), Ok(b)) => lines(way, &a.formed.chain, &b.formed.chain),
+        (Ok(a), Ok(b)) => {
+            lines(way, [&a.formed.chain, &b.formed.chain])?.map_or(Ok(()), |what| {
+                // Another way that is as long: each has to be one of the shortest by rational arithmetic.
+                let wrong =
+                    [(mine, a), (theirs, b)].into_iter().find_map(|(form, cut)| form.disagreement(cut));
+                require(wrong.is_none(), "alike-line", || format!("{what}: {}", wrong.unwrap_or_default()))
+            })
+        }
         // Where the way ends depends on where it begins.
         (Err(_), Err(_)) if matches!(way, Way::Back) => Ok(()),
         (Err(a), Err(b)) => require(a.reason == b.reason, "alike-outcome", || {
@@ -176,16 +174,62 @@ fn compare(way: Way, mine: Form, theirs: Form) -> Verdict {
     }
 }
 
-fn lines(way: Way, a: &Chain, b: &Chain) -> Verdict {
+impl Form {
+    /// What rational arithmetic says against a line.
+    fn disagreement(&self, cut: &Cut) -> Option<String> {
+        let question = Question::of(cut.eye, cut.picked.as_ref()?);
+        let compared = compare_chain(&self.state.mesh, &question, &Ok(cut.formed.chain.clone()));
+        compared.err().map(|wrong| wrong.to_string())
+    }
+}
+
+/// Whether two lines are as long, which they must be. Says how they differ, where they go through other places.
+fn lines(way: Way, [a, b]: [&Chain; 2]) -> Result<Option<String>, Box<Finding>> {
     let places = |chain: &Chain| chain.points.iter().map(|p| p.at).collect::<Vec<At>>();
     let scale = match way {
         Way::Mapped(map) => map.scale(),
         _ => 1.0,
     };
+    let (mine, mut theirs) = (places(a), places(b));
+    if matches!(way, Way::Back) {
+        theirs.reverse();
+    }
     let [long, other] = [a.length() * scale, b.length()];
     let tie = (long - other).abs() <= TIE * long.max(other);
-    let (mine, theirs) = (places(a), places(b));
-    require(tie || mine == theirs, "alike-line", || format!("{way:?}: {mine:?} became {theirs:?}"))?;
-    // The same length through other places is a way round the other side, and no other way along the same one.
-    require(tie, "alike-length", || format!("{way:?}: {long} became {other}"))
+    let what = format!("{way:?}: {mine:?} became {theirs:?}");
+    require(tie, "alike-length", || format!("{what}, {long} long and {other}"))?;
+    Ok((mine != theirs).then_some(what))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::Case;
+    use super::*;
+    use crate::engine::wound::Mode;
+
+    fn formed() -> Form {
+        let case = Case::new(Mode::Carve);
+        let eye = case.ran.cut().expect("a cut").eye;
+        form(case.before.clone(), &case.event, eye)
+    }
+
+    fn broken(form: &Form) -> String {
+        let found = compare(Way::Turned, &formed(), form).expect_err("it is doctored");
+        found.check
+    }
+
+    #[test]
+    fn another_length_another_line_and_another_outcome_are_findings() {
+        compare(Way::Turned, &formed(), &formed()).expect("they are the same");
+        let mut other = formed();
+        other.cut.as_mut().expect("a line").formed.chain.points[2].position *= 1.01;
+        assert_eq!(broken(&other), "alike-length");
+        // As long, through a place where it never was.
+        let mut other = formed();
+        other.cut.as_mut().expect("a line").formed.chain.points[2].at = At::Face(FaceId(0));
+        assert_eq!(broken(&other), "alike-line");
+        let mut other = formed();
+        other.cut = Err(Rejection::new("grazing", "by hand"));
+        assert_eq!(broken(&other), "alike-outcome");
+    }
 }

@@ -23,7 +23,7 @@ pub(super) fn look(witness: &Witness<'_>, hits: &mut Hits) -> Verdict {
         return Ok(());
     }
     hits.note("oracle exact");
-    let map = choose(witness.key);
+    let map = choose(witness.seed);
     let mut image = map.state(witness.ground, witness.before);
     let ran = drive::run(&mut image, witness.event, witness.seed, Some(map.point(cut.eye)));
     compare(&map, witness, &image, &ran)
@@ -34,11 +34,11 @@ pub(super) fn is_by_ids(event: &WoundEvent) -> bool {
     matches!(event, WoundEvent::Cut { from, to } if by_id(from) && by_id(to))
 }
 
-fn choose(key: u32) -> Map {
-    let key = key as usize;
-    let factors =
-        DVec3::from(TURNS[(key + 1) % TURNS.len()]) * SCALES[(key / TURNS.len() + key) % SCALES.len()];
-    Map { factors, ..Map::IDENTITY }
+/// Any turn with any scale, by the event's seed, which is a hash of the recording's and of its key.
+fn choose(seed: u64) -> Map {
+    let turn = TURNS[(seed % TURNS.len() as u64) as usize];
+    let scale = SCALES[(seed / TURNS.len() as u64 % SCALES.len() as u64) as usize];
+    Map { factors: DVec3::from(turn) * scale, ..Map::IDENTITY }
 }
 
 fn compare(map: &Map, witness: &Witness<'_>, image: &State, ran: &Ran) -> Verdict {

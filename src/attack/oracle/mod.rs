@@ -19,6 +19,8 @@ mod invariants;
 mod map;
 mod rational;
 mod session;
+#[cfg(test)]
+mod tests;
 mod trace;
 
 use super::drive::Ran;

@@ -14,12 +14,12 @@ pub(in crate::cli) struct Nightly {
     /// Recordings to verify, and folders of them
     #[arg(value_name = "PATH", default_value = "recordings", value_hint = ValueHint::AnyPath)]
     pub(in crate::cli) paths: Vec<PathBuf>,
-    /// How long, such as 90s, 30m or 8h; building the fuzzers comes on top of it
+    /// How long, such as 90s, 30m or 8h; verifying takes as long as it takes, and building the fuzzers comes on top
     #[arg(long = "for", value_name = "TIME", default_value = "30m")]
     pub(in crate::cli) time: Span,
-    /// What all chance comes from
-    #[arg(long, value_name = "S", default_value_t = 1)]
-    pub(in crate::cli) seed: u64,
+    /// What all chance comes from [default: the day's number, so that no night repeats the one before]
+    #[arg(long, value_name = "S")]
+    pub(in crate::cli) seed: Option<u64>,
     /// How many cuts or recordings at a time [default: as many as there are processors]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub(in crate::cli) jobs: Option<u16>,

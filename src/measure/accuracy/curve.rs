@@ -109,7 +109,12 @@ impl Row {
     }
 
     fn price(&self) -> [f64; 2] {
-        [self.us.median, self.error.unwrap_or(f64::INFINITY)]
+        [self.us.median, self.finite_error().unwrap_or(f64::INFINITY)]
+    }
+
+    /// The error where it is a number: one that is none stands on no front and in no picture, and cannot be compared.
+    pub(super) fn finite_error(&self) -> Option<f64> {
+        self.error.filter(|error| error.is_finite())
     }
 }
 
@@ -119,7 +124,7 @@ impl Curve {
     pub(super) fn with_front(mut self) -> Self {
         let rows = &self.rows;
         let beaten = |row: &Row| rows.iter().any(|other| other.series == row.series && other.beats(row));
-        let front: Vec<bool> = rows.iter().map(|row| row.error.is_some() && !beaten(row)).collect();
+        let front: Vec<bool> = rows.iter().map(|row| row.finite_error().is_some() && !beaten(row)).collect();
         self.rows.iter_mut().zip(front).for_each(|(row, front)| row.front = front);
         self
     }
@@ -127,6 +132,17 @@ impl Curve {
     /// Whether what was planted was measured.
     pub fn is_trusted(&self) -> bool {
         self.planted.is_measured()
+    }
+
+    /// Why it is not to be trusted: a line for what was planted and not measured, and for each error that is no number.
+    pub(super) fn doubts(&self) -> Vec<String> {
+        let Planted { what, value, measured } = &self.planted;
+        let planted = (!self.is_trusted())
+            .then(|| format!("{}: planted was {value} ({what}), and measured {measured}", self.name));
+        let odd = self.rows.iter().filter(|row| row.error.is_some() && row.finite_error().is_none());
+        let odd =
+            odd.map(|row| format!("{}, {}, {}: its error is no number", self.name, row.series, row.setting));
+        planted.into_iter().chain(odd).collect()
     }
 
     /// The series, in their order.
@@ -171,7 +187,7 @@ impl Curve {
     /// The curve as a picture.
     pub fn plot(&self) -> Plot {
         let mark = |row: &Row| {
-            let y = row.error?;
+            let y = row.finite_error()?;
             Some(Mark { x: row.us.median, y, label: row.setting.clone(), front: row.front })
         };
         let series = |name: &str| Series {
@@ -233,6 +249,14 @@ mod tests {
         assert_eq!(table.rows[3].cells, ["a: x", "0.5000", "0.5000 … 0.5000", "never", ""]);
         assert!(table.rows.iter().all(|row| row.cells.len() == table.columns.len()));
         assert_eq!(curve.plot().series[0].marks.len(), 3);
+    }
+
+    #[test]
+    fn an_error_that_is_no_number_is_drawn_nowhere_and_not_trusted() {
+        let curve = curve([f64::NAN, f64::INFINITY, 5.0].map(|error| row("a", 1.0, Some(error))).into());
+        assert_eq!(curve.rows.iter().map(|row| row.front).collect::<Vec<_>>(), [false, false, true]);
+        assert_eq!(curve.plot().series[0].marks.len(), 1);
+        assert_eq!(curve.doubts(), ["a, a, x: its error is no number"; 2]);
     }
 
     #[test]

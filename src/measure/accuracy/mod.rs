@@ -17,7 +17,7 @@
 //! it; a run in which they differ is no result ([`Curve::is_trusted`]).
 //!
 //! **Times** are medians of rounds in which all settings of a subject take turns, beside a yardstick that no change of the program touches. A
-//! [gate](against) keeps what is stored of a run's curves from getting both slower, by the yardstick, and less accurate.
+//! [gate](against) keeps what is stored of a run's curves from getting both slower, by the yardstick, and less accurate, and from going missing.
 //!
 //! Not promised: seconds that hold on another machine.
 
@@ -112,6 +112,8 @@ pub struct AccuracyReport {
     pub quick: bool,
     /// How many rounds were run.
     pub rounds: usize,
+    /// What was measured, by name.
+    pub subjects: Vec<String>,
     /// The curves, by subject.
     pub curves: Vec<Curve>,
 }
@@ -128,7 +130,8 @@ pub fn measure(
         progress(done, subjects.len(), subject.name);
         curves.extend((subject.run)(ask)?);
     }
-    Ok(AccuracyReport { quick: ask.quick, rounds: ask.rounds, curves })
+    let subjects = subjects.iter().map(|subject| subject.name.to_owned()).collect();
+    Ok(AccuracyReport { quick: ask.quick, rounds: ask.rounds, subjects, curves })
 }
 
 fn chosen(only: &[String]) -> Result<Vec<&'static Subject>, MeasureError> {
@@ -146,14 +149,8 @@ impl AccuracyReport {
         self.curves.iter().map(|curve| curve.table(self.rounds)).collect()
     }
 
-    /// What is said of curves whose planted error was not measured as such.
+    /// What is said of curves whose planted error was not measured as such, and of errors that are no numbers.
     pub fn untrusted(&self) -> Vec<String> {
-        let untrusted = self.curves.iter().filter(|curve| !curve.is_trusted());
-        untrusted
-            .map(|Curve { name, planted, .. }| {
-                let Planted { what, value, measured } = planted;
-                format!("{name}: planted was {value} ({what}), and measured {measured}")
-            })
-            .collect()
+        self.curves.iter().flat_map(Curve::doubts).collect()
     }
 }

@@ -1,11 +1,13 @@
 //! Picks: the hierarchy with exact signs, and every face tried with rounded arithmetic, against rational arithmetic (Lam 2016, §4.1.1).
 //!
-//! **Truth.** The face is the one that exact signs say, which FC's own oracle confirms ([`exact`](crate::measure::exact)): the ray meets it between
-//! its sides. The point is where the ray meets its plane, as a fraction.
+//! **Truth.** The face is the first of all by exact signs (`truth`), without any hierarchy, and FC's own oracle confirms that the ray meets it between
+//! its sides ([`exact`](crate::measure::exact)). The point is where the ray meets its plane, as a fraction. No pick has a say in it.
 //!
 //! **Error.** The root of the mean square of the distance of a pick's point from the exact one, in nanometres, over the picks that met the right
 //! face; the largest; and how many of a million met another face or none. The thesis tries every face (Möller and Trumbore 1997), which costs the
 //! more the larger the mesh is.
+
+mod truth;
 
 use glam::DVec3;
 
@@ -15,10 +17,9 @@ use super::opening::faces_text;
 use super::turns::{Task, in_turns, timed};
 use crate::assets::builtin::builtin;
 use crate::engine::wound::chain::At;
-use crate::engine::wound::pick::{self, Picked};
-use crate::engine::wound::{Pick, State};
+use crate::engine::wound::{Pick, State, pick};
 use crate::measure::baseline::Scalar;
-use crate::measure::exact::{ExactPoint, Question, Section};
+use crate::measure::exact::{Datum, ExactPoint, Question, Section};
 use crate::measure::scaling::default_scene;
 use crate::measure::{MeasureError, Random};
 use crate::mesh::{FaceId, Mesh};
@@ -69,7 +70,7 @@ fn measure(faces: &[usize], picks: usize, rounds: usize) -> Result<Curve, Measur
         let mesh = Mesh::build(&builtin(&format!("bust:{faces}"))?.mesh)?;
         let series = format!("bust, {} faces", faces_text(mesh.face_count()));
         let mut state = State::new(mesh, default_scene());
-        let rays = rays(&mut state, picks);
+        let rays = rays(&state, picks);
         planted = planted.or_else(|| rays.first().map(planted_in));
         rows.extend(of_mesh(&series, &mut state, &rays, rounds)?);
     }
@@ -86,19 +87,22 @@ fn measure(faces: &[usize], picks: usize, rounds: usize) -> Result<Curve, Measur
 }
 
 /// Rays into the inside of faces, with their exact points; two make one question for the oracle.
-fn rays(state: &mut State, count: usize) -> Vec<Ray> {
+fn rays(state: &State, count: usize) -> Vec<Ray> {
     let mut random = Random::of(0, 0, "rays");
     let eye = state.control.camera.eye();
     let mut rays = Vec::with_capacity(count);
     for _ in 0..2 * count {
         let pixels = [0, 1].map(|_| FACE.map(|[low, high]| random.within(low, high)));
-        let picked = pixels.map(|pixel| pick::resolve(state, Pick::Pixel(pixel)));
-        let [Ok(a), Ok(b)] = picked else { continue };
-        let Ok(section) = Section::of(&state.mesh, &Question::of(eye, &[a, b])) else { continue };
+        let [Some(a), Some(b)] = pixels.map(|pixel| aimed(state, pixel)) else { continue };
+        // A section has one place in a face.
+        if a.at == b.at {
+            continue;
+        }
+        let Ok(section) = Section::of(&state.mesh, &Question { eye, picks: [a, b] }) else { continue };
         rays.extend(
             [(pixels[0], a), (pixels[1], b)]
                 .into_iter()
-                .filter_map(|(pixel, p)| Ray::new(pixel, p, &section)),
+                .filter_map(|(pixel, datum)| Ray::new(pixel, datum, &section)),
         );
         if rays.len() >= count {
             break;
@@ -108,10 +112,18 @@ fn rays(state: &mut State, count: usize) -> Vec<Ray> {
     rays
 }
 
+/// What is true of a pixel: the ray, and the face that it meets first.
+fn aimed(state: &State, pixel: [f64; 2]) -> Option<Datum> {
+    let camera = state.control.camera;
+    let through = camera.through(pixel)?;
+    let face = truth::first_face(&state.mesh, camera.eye(), through)?;
+    Some(Datum { through, at: At::Face(face) })
+}
+
 impl Ray {
-    fn new(pixel: [f64; 2], picked: Picked, section: &Section<'_>) -> Option<Self> {
-        let At::Face(face) = picked.point.at else { return None };
-        Some(Self { pixel, through: picked.through, face, point: section.point(picked.point.at)? })
+    fn new(pixel: [f64; 2], datum: Datum, section: &Section<'_>) -> Option<Self> {
+        let At::Face(face) = datum.at else { return None };
+        Some(Self { pixel, through: datum.through, face, point: section.point(datum.at)? })
     }
 }
 
@@ -227,5 +239,41 @@ mod tests {
         let error = |i: usize| curve.rows[i].error.expect("some are right");
         assert!(error(2) <= error(1) && error(1) < 1e-3 * error(0));
         assert_eq!(curve.rows[2].others[1], 0.0);
+    }
+
+    /// Of the bust, and of the same a long way off.
+    fn meshes() -> [Mesh; 2] {
+        let mut indexed = builtin("bust:3000").expect("a scene").mesh;
+        let here = Mesh::build(&indexed).expect("a mesh");
+        indexed.positions.iter_mut().for_each(|p| *p += DVec3::splat(1e3));
+        [here, Mesh::build(&indexed).expect("a mesh")]
+    }
+
+    #[test]
+    fn another_face_is_counted_whatever_point_it_comes_with() {
+        let [mesh, _] = meshes();
+        let rays = rays(&State::new(mesh, default_scene()), 10);
+        assert_eq!(rays.len(), 10);
+        let mut picks = 0;
+        let errors = Errors::of(&rays, &mut |ray| {
+            picks += 1;
+            let face = if picks % 2 == 0 { ray.face } else { FaceId(ray.face.0 ^ 1) };
+            Some((face, ray.point.rounded()))
+        });
+        assert_eq!(errors.wrong, 5e5);
+    }
+
+    #[test]
+    fn a_hierarchy_that_leads_nowhere_has_no_say_in_what_is_true() {
+        let [here, away] = meshes();
+        let mut state = State::new(here.clone(), default_scene());
+        // Made of the one mesh, and asked about the other.
+        state.mesh = away;
+        state.mesh_and_bvh();
+        state.mesh = here;
+        let rays = rays(&state, 10);
+        assert_eq!(rays.len(), 10);
+        let errors = Errors::of(&rays, &mut |ray| by_hierarchy(&mut state, ray));
+        assert_eq!(errors.wrong, 1e6);
     }
 }

@@ -62,7 +62,7 @@ impl RangesReport {
         for (number, (ladder, (rung, found))) in rungs.enumerate() {
             report.cuts += rung.cuts;
             by_ladder[ladder].push(rung);
-            let finding = |f: Found| StabilityFinding::of("range", options.seed, number, &f.scene, &f.broken);
+            let finding = |f: Found| StabilityFinding::of(&f.kind, options.seed, number, &f.scene, &f.broken);
             report.findings.extend(found.into_iter().map(finding));
         }
         report.ladders =

@@ -62,6 +62,8 @@ pub struct Rung {
 
 /// What broke, and on what.
 pub(super) struct Found {
+    /// What its files are called by: the ladder, and the scene as it is. The cuts of a rung are counted on each of its scenes.
+    pub(super) kind: String,
     pub(super) scene: Prepared,
     pub(super) broken: Broken,
 }
@@ -124,11 +126,18 @@ pub(super) fn run(
             if let Some((stage, check)) = broken.into_iter().next() {
                 rung.ours.findings += 1;
                 let broken = Broken { cut, stage, check, events: events.into() };
-                found.push(Found { scene: scene.clone(), broken });
+                found.push(Found::of(ladder, base, scene.clone(), broken));
             }
         }
     }
     Ok((rung, found))
+}
+
+impl Found {
+    pub(super) fn of(ladder: &Ladder, base: &Base, scene: Prepared, broken: Broken) -> Self {
+        let kind = format!("range-{}-{}", ladder.name, base.name).replace([' ', ':'], "-");
+        Self { kind, scene, broken }
+    }
 }
 
 impl Rung {

@@ -1,13 +1,14 @@
 //! Where a range ends, and that the ladders tell the engine from plain floats.
 
-use super::ladders::{LADDERS, mend};
-use super::report::{LadderReport, Until};
-use super::rung::{Base, Ours, Rung, Theirs, run};
+use super::ladders::{LADDERS, Ladder, mend};
+use super::report::{LadderReport, RangesReport, Until};
+use super::rung::{Base, Found, Ours, Rung, Theirs, run};
 use super::{Options, measure};
 use crate::assets::builtin::builtin;
 use crate::measure::Random;
 use crate::measure::baseline::Failure;
 use crate::measure::stability::part::Broken;
+use crate::measure::stability::report::StabilityFinding;
 use crate::measure::stability::reproduce;
 use crate::mesh::{Mesh, NodeId};
 use crate::report::Check;
@@ -78,6 +79,36 @@ fn a_damaged_mesh_is_a_finding_with_its_script() {
     let reproduction = reproduce::of("range", 3, 7, &scene, &broken);
     assert!(
         reproduction.name == "range-3-7-0.json" && reproduction.script.contains("range-3-7-0.scene.json")
+    );
+}
+
+#[test]
+fn every_finding_has_a_file_of_its_own() {
+    let bases = ["bust:2000", "grid"].map(|name| Base::make(name, 1, 3).expect("the scene"));
+    let found = |ladder: &Ladder, value: f64| {
+        let first = |base: &Base| {
+            let check = Check::fail("planted", "on purpose");
+            let events = base.events(ladder, value)[0].to_vec();
+            let broken = Broken { cut: 0, stage: "state".into(), check, events };
+            Found::of(ladder, base, base.prepared(ladder, value, 3).expect("the scene on it"), broken)
+        };
+        bases.iter().map(first).collect::<Vec<_>>()
+    };
+    let rungs = [(0, 1e2), (0, 1e3), (6, 1e-2)];
+    let rungs = rungs.map(|(ladder, value)| (ladder, (rung(value, 0), found(&LADDERS[ladder], value))));
+    let options = Options { cuts: 0, per_rung: 2, seed: 3, jobs: 1 };
+    let report = RangesReport::join(&options, rungs.into_iter());
+    let files: Vec<&str> = report.findings.iter().map(StabilityFinding::file).collect();
+    assert_eq!(
+        files,
+        [
+            "range-translation-bust-2000-3-0-0.json",
+            "range-translation-grid-3-0-0.json",
+            "range-translation-bust-2000-3-1-0.json",
+            "range-translation-grid-3-1-0.json",
+            "range-short-edges-bust-2000-3-2-0.json",
+            "range-short-edges-grid-3-2-0.json",
+        ]
     );
 }
 
