@@ -30,11 +30,11 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), AssetError> {
     match fs::metadata(path) {
         Ok(there) if !there.is_file() && !there.is_dir() => {
             let into = OpenOptions::new().write(true).open(path);
-            return into.and_then(|mut file| file.write_all(bytes)).map_err(|e| AssetError::io(path, &e));
+            into.and_then(|mut file| file.write_all(bytes)).map_err(|e| AssetError::io(path, &e))
         }
         Ok(_) if path.is_symlink() => {
             let real = fs::canonicalize(path).map_err(|e| AssetError::io(path, &e))?;
-            return replace_file(&real, bytes);
+            replace_file(&real, bytes)
         }
         _ => replace_file(path, bytes),
     }

@@ -35,8 +35,8 @@ use serde::{Deserialize, Serialize};
 pub use cache::CacheOptions;
 pub use error::{AssetError, Fault, FaultKind, Place};
 pub use files::{
-    is_file, is_folder, is_same_file, list_files, list_folder, moved, newest_files, read_file, real_folder, remove_file,
-    take_file, write_file,
+    is_file, is_folder, is_same_file, list_files, list_folder, moved, newest_files, read_file, real_folder,
+    remove_file, take_file, write_file,
 };
 pub use inspect::{MeshFacts, inspect};
 pub use maps::{MapSources, read_png, write_png};
