@@ -9,6 +9,7 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{DeserializeOwned, Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
+use serde_json::Value;
 
 use super::any::{ForEngine, for_engine};
 use super::rules::{self, MAX_SIDE, Names, VIEWPORT};
@@ -123,7 +124,7 @@ struct Document<E: Event> {
 fn parse<T: DeserializeOwned>(text: &[u8]) -> Result<T, ScriptError> {
     let mut json = serde_json::Deserializer::from_slice(text);
     let value = serde_path_to_error::deserialize(&mut json)
-        .map_err(|error| located(&error.path().to_string(), error.inner()))?;
+        .map_err(|error| plainly(located(&error.path().to_string(), error.inner()), text))?;
     json.end().map_err(|error| located("", &error))?;
     Ok(value)
 }
@@ -140,6 +141,34 @@ fn located(path: &str, error: &serde_json::Error) -> ScriptError {
         _ => (path.to_owned(), message),
     };
     ScriptError { at: (line > 0).then_some((line, column)), field, message: message.to_owned() }
+}
+
+/// What the parser says of JSON that is sound, where it meets more or less than one key, or more elements than it asked for.
+const BESIDE_THE_POINT: [&str; 3] = ["expected value", "trailing comma", "trailing characters"];
+
+/// Says what is wrong where the parser says something that is true of broken JSON alone.
+fn plainly(error: ScriptError, text: &[u8]) -> ScriptError {
+    let sound = BESIDE_THE_POINT.contains(&error.message.as_str()).then(|| serde_json::from_slice(text).ok());
+    let root: Option<Value> = sound.flatten();
+    let message = match root.as_ref().and_then(|root| find(root, &error.field)) {
+        Some(Value::Object(keys)) if keys.is_empty() => "one key says what it is, and here is none".into(),
+        Some(Value::Object(keys)) if keys.len() > 1 => {
+            let names: Vec<String> = keys.keys().map(|name| quoted(name)).collect();
+            format!("one key says what it is, and here are {}", names.join(" and "))
+        }
+        Some(Value::Array(elements)) => format!("{} elements are too many", elements.len()),
+        _ => error.message,
+    };
+    ScriptError { message, ..error }
+}
+
+/// The value at a path such as `scene.inline.faces[0]`.
+fn find<'v>(root: &'v Value, path: &str) -> Option<&'v Value> {
+    let steps = path.split(['.', '[']).filter(|step| !step.is_empty());
+    steps.into_iter().try_fold(root, |value, step| match step.strip_suffix(']') {
+        Some(index) => value.get(index.parse::<usize>().ok()?),
+        None => value.get(step),
+    })
 }
 
 struct Parse<'a>(&'a [u8]);

@@ -1,14 +1,17 @@
 //! The recorded inputs of the wound engine, as they stand in a script.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use schemars::JsonSchema;
+use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Serialize};
 
 use super::settings;
 use crate::canvas::frame::Orbit;
 use crate::engine::{Control, Event, Input};
 use crate::mesh::{EdgeId, FaceId, NodeId};
+use crate::report::quoted;
 
 /// How far a cut goes (Lam 2016, §6.3).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -82,7 +85,7 @@ pub enum Value {
 }
 
 #[derive(Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "this is neither true, false nor a number")]
 enum Plain {
     Switch(bool),
     Number(f64),
@@ -121,6 +124,32 @@ impl<'de> Deserialize<'de> for Value {
     }
 }
 
+/// Settings by name, none of them twice.
+fn once_each<'de, D: serde::Deserializer<'de>>(d: D) -> Result<BTreeMap<String, Value>, D::Error> {
+    struct OnceEach;
+
+    impl<'de> Visitor<'de> for OnceEach {
+        type Value = BTreeMap<String, Value>;
+
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            f.write_str("settings by name")
+        }
+
+        fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<Self::Value, M::Error> {
+            let mut all = BTreeMap::new();
+            while let Some((name, value)) = map.next_entry::<String, Value>()? {
+                if all.contains_key(&name) {
+                    return Err(M::Error::custom(format_args!("{} is set twice", quoted(&name))));
+                }
+                all.insert(name, value);
+            }
+            Ok(all)
+        }
+    }
+
+    d.deserialize_map(OnceEach)
+}
+
 /// One recorded input of the wound engine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
@@ -143,6 +172,7 @@ pub enum WoundEvent {
         /// Where.
         at: [f64; 2],
         /// Into how many faces: 3, 4 or 6.
+        #[schemars(extend("enum" = [3, 4, 6]))]
         into: u8,
     },
     /// Takes the last applied edit back.
@@ -150,7 +180,11 @@ pub enum WoundEvent {
     /// Does the last undone edit again.
     Redo {},
     /// Changes settings by name.
-    Set(BTreeMap<String, Value>),
+    Set(
+        #[serde(deserialize_with = "once_each")]
+        #[schemars(schema_with = "super::settings::schema")]
+        BTreeMap<String, Value>,
+    ),
     /// Digests everything and renders a frame.
     Checkpoint(String),
 }

@@ -4,6 +4,9 @@
 
 use std::collections::BTreeMap;
 
+use schemars::{Schema, SchemaGenerator, json_schema};
+use serde_json::{Map, json};
+
 use super::event::Value;
 use crate::canvas::look::Look;
 
@@ -36,7 +39,7 @@ pub(super) const FIRST: usize = 10;
 
 /// The settings, in the order in which they are digested. New ones go to the end.
 pub const SETTINGS: &[Setting] = &[
-    setting("snap_px", Takes::Other([0.0, f64::MAX], 0.0)),
+    setting("snap_px", Takes::Other([0.0, 1000.0], 0.0)),
     setting("shadows", Takes::Switch(|look| &mut look.switches.shadows)),
     setting("transmittance", Takes::Switch(|look| &mut look.switches.transmittance)),
     setting("specular", Takes::Switch(|look| &mut look.switches.specular)),
@@ -55,6 +58,18 @@ pub const SETTINGS: &[Setting] = &[
     setting("scatter-width", Takes::Number([0.001, 10.0], |look| &mut look.scattering.width_cm)),
     setting("translucency", Takes::Number([0.0, 1.0], |look| &mut look.scattering.translucency)),
 ];
+
+/// The schema of settings by name.
+pub(super) fn schema(_: &mut SchemaGenerator) -> Schema {
+    let of = |setting: &Setting| match setting.takes {
+        Takes::Switch(_) => json!({ "type": "boolean" }),
+        Takes::Number([least, most], _) | Takes::Other([least, most], _) => {
+            json!({ "type": "number", "minimum": least, "maximum": most })
+        }
+    };
+    let all: Map<String, serde_json::Value> = SETTINGS.iter().map(|s| (s.name.into(), of(s))).collect();
+    json_schema!({ "type": "object", "properties": all, "additionalProperties": false })
+}
 
 /// What every setting begins as in a scene.
 pub(super) fn of_scene(look: &Look, snap_px: f64) -> BTreeMap<String, Value> {

@@ -60,7 +60,14 @@ fn mistakes_in_events() {
     assert_complains(&events(r#"{"click": [1e999, 0]}"#), "number out of range");
     assert_complains(&events(r#"{"camera": {"zenith": 4}}"#), "events[0].camera.zenith: 4 is not in");
     assert_complains(&events(r#"{"set": {"shadow": true}}"#), "events[0].set: there is no setting `shadow`");
-    assert_complains(&events(r#"{"undo": {}, "redo": {}}"#), "events[0]: ");
+    let one_key = "events[0]: one key says what it is, and here";
+    assert_complains(&events(r#"{"undo": {}, "redo": {}}"#), &format!(r#"{one_key} are "redo" and "undo""#));
+    assert_complains(&events("{}"), &format!("{one_key} is none"));
+    assert_complains(&events(r#"{"click": [1, 2, 3]}"#), "events[0].click: 3 elements are too many");
+    assert_complains(&events(r#"{"set": {"shadows": "no"}}"#), "neither true, false nor a number");
+    assert_complains(&events(r#"{"set": {"shadows": true, "shadows": false}}"#), r#""shadows" is set twice"#);
+    assert_complains(&events(r#"{"set": {"snap_px": 1e300}}"#), "events[0].set");
+    assert_complains(&events(r#"{"undo": {}},"#), "trailing comma");
 }
 
 #[test]
@@ -134,7 +141,7 @@ fn the_summary_counts() {
 fn the_schema_names_every_field_and_event() {
     let schema = serde_json::to_string(&script_schema()).unwrap();
     for word in
-        ["viewport", "keys", "builtin:", "inline", "checkpoint", "azimuth", "16384", "additionalProperties"]
+        ["viewport", "keys", "builtin:", "inline", "checkpoint", "azimuth", "16384", "snap_px", "[3,4,6]"]
     {
         assert!(schema.contains(word), "{word} is not in {schema}");
     }
