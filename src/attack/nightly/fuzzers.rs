@@ -23,7 +23,7 @@ const CANARY_SECONDS: u32 = 60;
 /// What libFuzzer says before the path of an input that broke something.
 const WRITTEN: &str = "Test unit written to ";
 
-/// cargo-fuzz with its targets built.
+/// cargo-fuzz with its targets built, and apart from them the program with the planted bug.
 pub(super) struct Tool {
     fuzz: PathBuf,
 }
@@ -48,13 +48,26 @@ impl Tool {
             _ => return Err(Missing::Absent("no cargo-fuzz".into())),
         }
         progress("building the fuzz targets");
-        match tool.cargo(&[&["build", "--fuzz-dir", &tool.folder()], &PLAIN[..]].concat()) {
-            Ok(built) if built.status.success() => Ok(tool),
-            Ok(built) => {
-                Err(Missing::Broken(format!("the fuzz targets do not build: {}", error_line(&text(&built)))))
-            }
-            Err(error) => Err(Missing::Broken(error.to_string())),
-        }
+        tool.build(&["--fuzz-dir", &tool.folder()])?;
+        progress("building the program with the planted bug");
+        tool.build(&[&tool.canary_options().each_ref().map(String::as_str)[..], &[CANARY]].concat())?;
+        Ok(tool)
+    }
+
+    fn build(&self, options: &[&str]) -> Result<(), Missing> {
+        let built = self.cargo(&[&["build"], &PLAIN[..], options].concat());
+        let why = match &built {
+            Ok(built) if built.status.success() => return Ok(()),
+            Ok(built) => error_line(&text(built)).to_owned(),
+            Err(error) => error.to_string(),
+        };
+        Err(Missing::Broken(format!("the fuzz targets do not build: {why}")))
+    }
+
+    /// The planted bug is built apart, so that the other targets need not be built again.
+    fn canary_options(&self) -> [String; 6] {
+        let apart = self.fuzz.join("target").join(CANARY).display().to_string();
+        ["--fuzz-dir".into(), self.folder(), "--target-dir".into(), apart, "--features".into(), CANARY.into()]
     }
 
     fn folder(&self) -> String {
@@ -66,19 +79,8 @@ impl Tool {
         command.args(["+nightly", "fuzz"]).args(arguments).stdin(Stdio::null()).output()
     }
 
-    /// Runs the program with the planted bug until it is found; a minute without it is a failure. It is built apart, so that the other
-    /// targets need not be built again.
-    pub(super) fn canary(&self, night: &Night, progress: Progress<'_>) -> Part {
-        let (folder, apart) = (self.folder(), self.fuzz.join("target").join(CANARY).display().to_string());
-        let mut options = vec!["--fuzz-dir", &folder, "--target-dir", &apart, "--features", CANARY];
-        options.extend(PLAIN);
-        progress("building the program with the planted bug");
-        match self.cargo(&[&["build"], &options[..], &[CANARY]].concat()) {
-            Ok(built) if built.status.success() => {}
-            Ok(built) => return Part::unable(last_line(&text(&built))),
-            Err(error) => return Part::unable(error.to_string()),
-        }
-        progress(CANARY);
+    /// Runs the program with the planted bug until it is found; a minute without it is a failure.
+    pub(super) fn canary(&self, night: &Night) -> Part {
         // It begins with nothing: inputs that are known to meet the bug would prove nothing of the fuzzer.
         let none = new_inputs(night, CANARY);
         if let Err(error) = assets::real_folder(&none) {
@@ -86,7 +88,8 @@ impl Tool {
         }
         let clock = Instant::now();
         let mut command = Command::new("cargo");
-        command.args(["+nightly", "fuzz", "run"]).args(&options).arg(CANARY).arg(&none);
+        command.args(["+nightly", "fuzz", "run"]).args(self.canary_options()).args(PLAIN);
+        command.arg(CANARY).arg(&none);
         command.arg("--").args(limits(night, CANARY, u64::from(CANARY_SECONDS)));
         command.env("LANCET_FINDINGS", night.findings.join(CANARY)).stdin(Stdio::null());
         match command.output() {

@@ -68,15 +68,19 @@ impl Night {
         report.parts.push(timed("verify", progress, || parts::verify(self)));
         let small = self.time.saturating_sub(clock.elapsed()) / SMALL_SHARE;
         report.parts.push(timed("stability", progress, || parts::stability(self, small)));
+        let before = clock.elapsed();
         let tool = Tool::find(&self.fuzz, progress);
+        // What building takes comes on top of the night.
+        let built = clock.elapsed() - before;
         report.parts.push(timed("canary", progress, || match &tool {
-            Ok(tool) => tool.canary(self, progress),
+            Ok(tool) => tool.canary(self),
             Err(Missing::Absent(why)) => {
                 Part::skipped(format!("{why}: no second program with the bug in it"))
             }
             Err(Missing::Broken(why)) => Part::unable(why),
         }));
-        report.parts.extend(self.fuzz_all(&tool, clock, small, progress));
+        let left = (self.time + built).saturating_sub(clock.elapsed() + small);
+        report.parts.extend(self.fuzz_all(&tool, left, progress));
         let mut reached = Reached::default();
         report.parts.push(timed("reached", progress, || parts::reached(self, &mut reached)));
         report.parts.push(timed("matrix", progress, || {
@@ -94,19 +98,12 @@ impl Night {
         Random::of(self.seed, round, part).any()
     }
 
-    /// Every target, as many at a time as there are jobs, and each for as long as any other.
-    fn fuzz_all(
-        &self,
-        tool: &Result<Tool, Missing>,
-        clock: Instant,
-        reserved: Duration,
-        progress: Progress<'_>,
-    ) -> Vec<Part> {
+    /// Every target, as many at a time as there are jobs, and each for as long as any other; together for so long.
+    fn fuzz_all(&self, tool: &Result<Tool, Missing>, time: Duration, progress: Progress<'_>) -> Vec<Part> {
         // Without its bug the canary is another target's double.
         let targets: Vec<&'static Target> = TARGETS.iter().filter(|target| target.name != CANARY).collect();
         let jobs = self.jobs.clamp(1, targets.len());
-        let left = self.time.saturating_sub(clock.elapsed() + reserved);
-        let share = left / u32::try_from(targets.len().div_ceil(jobs)).unwrap_or(1);
+        let share = time / u32::try_from(targets.len().div_ceil(jobs)).unwrap_or(1);
         let one = |number: usize| {
             let target = *targets.get(number)?;
             Some(timed(&format!("fuzz {}", target.name), progress, || match tool {

@@ -67,7 +67,7 @@ fn mistakes_in_events() {
     assert_complains(&events(r#"{"set": {"shadows": "no"}}"#), "neither true, false nor a number");
     assert_complains(&events(r#"{"set": {"shadows": true, "shadows": false}}"#), r#""shadows" is set twice"#);
     assert_complains(&events(r#"{"set": {"snap_px": 1e300}}"#), "events[0].set");
-    assert_complains(&events(r#"{"undo": {}},"#), "trailing comma");
+    assert_complains(&events(r#"{"undo": {}},"#), "events: expected value");
 }
 
 #[test]
