@@ -153,7 +153,7 @@ fn plainly(error: ScriptError, text: &[u8]) -> ScriptError {
     let message = match root.as_ref().and_then(|root| find(root, &error.field)) {
         Some(Value::Object(keys)) if keys.is_empty() => "one key says what it is, and here is none".into(),
         Some(Value::Object(keys)) if keys.len() > 1 => {
-            let names: Vec<String> = keys.keys().map(|name| quoted(name)).collect();
+            let names: Vec<String> = keys.keys().map(quoted).collect();
             format!("one key says what it is, and here are {}", names.join(" and "))
         }
         Some(Value::Array(elements)) => format!("{} elements are too many", elements.len()),
