@@ -1,3 +1,5 @@
+//! When a picture is asked for, how large, and what becomes of an answer.
+
 use super::*;
 use crate::canvas::image::MapId;
 use crate::tui::image::protocol::Kind;

@@ -1,3 +1,5 @@
+//! Every popup at every size: it is drawn whole, no key does harm, and Esc leads out.
+
 use ratatui::buffer::Buffer;
 
 use super::*;

@@ -1,3 +1,5 @@
+//! Recording by keys: what is recorded replays to the same, and drafts outlive what ends the program.
+
 use std::path::{Path, PathBuf};
 
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};

@@ -1,3 +1,5 @@
+//! A screen as text, as styles and as SVG.
+
 use std::num::NonZeroU16;
 
 use ratatui::buffer::CellDiffOption;

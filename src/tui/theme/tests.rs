@@ -1,3 +1,5 @@
+//! Every role can be read on its ground and told from the others.
+
 use super::*;
 use crate::tui::colour;
 

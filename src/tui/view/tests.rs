@@ -1,3 +1,5 @@
+//! The whole screen at every size: panes, tabs, hints, title and messages.
+
 use super::*;
 use crate::tui::model::{Message, Place};
 use crate::tui::screen::to_text;

@@ -1,3 +1,5 @@
+//! Keys and the mouse on a picture: orbit, tints, subjects, picks.
+
 use ratatui::crossterm::event::{Event, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 
 use super::*;

@@ -1,3 +1,5 @@
+//! Prompts: answers, what is wrong with them, completion, and what was typed before.
+
 use super::*;
 use crate::tui::model::Place;
 use crate::tui::update::kit;
