@@ -9,8 +9,6 @@
 
 mod sheets;
 
-use std::cmp::Ordering;
-
 use arbitrary::{Arbitrary, Result, Unstructured};
 use glam::DVec3;
 
@@ -19,7 +17,7 @@ use crate::canvas::look::Look;
 use crate::engine::wound::pick::cast;
 use crate::engine::wound::{Edit, Pick, Scene, State, Wound, WoundEvent};
 use crate::engine::{Engine, Part, Start};
-use crate::geometry::predicates::{nearer, orient3d};
+use crate::measure::exact::first_face;
 use crate::mesh::{EdgeId, FaceId, Mesh, NodeId};
 
 /// Rays and edits of one input.
@@ -149,34 +147,6 @@ fn pixel(bytes: &mut Unstructured<'_>) -> Result<[f64; 2]> {
     Ok([quarter(u8::arbitrary(bytes)?), quarter(u8::arbitrary(bytes)?)])
 }
 
-/// The first face by looking at all, and how many faces are at that place.
-fn first_face(mesh: &Mesh, eye: DVec3, through: DVec3) -> (Option<FaceId>, usize) {
-    let (mut best, mut level) = (None, 0);
-    for face in (0..mesh.face_count()).map(FaceId::of).filter(|&f| is_met(mesh.triangle(f), eye, through)) {
-        let order =
-            best.map_or(Ordering::Greater, |b| nearer(eye, through, mesh.triangle(b), mesh.triangle(face)));
-        match order {
-            Ordering::Greater => (best, level) = (Some(face), 1),
-            Ordering::Equal => level += 1,
-            Ordering::Less => {}
-        }
-    }
-    (best, level)
-}
-
-/// Whether the ray meets a triangle in front of the eye, borders included; not where it lies in the triangle's plane.
-fn is_met([a, b, c]: [DVec3; 3], eye: DVec3, through: DVec3) -> bool {
-    let sides = [orient3d(eye, through, a, b), orient3d(eye, through, b, c), orient3d(eye, through, c, a)];
-    let (left, right) = (sides.contains(&Ordering::Greater), sides.contains(&Ordering::Less));
-    // Positive sides: the triangle turns counter-clockwise about the ray, which goes from its front to its back or the other way around.
-    let before = orient3d(a, b, c, eye);
-    match (left, right) {
-        (true, false) => before == Ordering::Less,
-        (false, true) => before == Ordering::Greater,
-        _ => false,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -193,14 +163,5 @@ mod tests {
         for reached in ["hit", "miss", "hits at one place", "applied", "undone", "rejected"] {
             assert!(hits.0.get(reached).is_some_and(|n| *n > 5), "{reached}: {hits:?}");
         }
-    }
-
-    #[test]
-    fn brute_force_looks_forward_and_takes_the_lower_face_of_two() {
-        let [a, b, c] = [DVec3::ZERO, DVec3::X, DVec3::Y];
-        let eye = DVec3::new(0.25, 0.25, 1.0);
-        assert!(is_met([a, b, c], eye, eye - DVec3::Z) && is_met([a, c, b], eye, eye - DVec3::Z));
-        assert!(!is_met([a, b, c], eye, eye + DVec3::Z) && !is_met([a, c, b], eye, eye + DVec3::Z));
-        assert!(!is_met([a, b, c], eye, eye + DVec3::X));
     }
 }

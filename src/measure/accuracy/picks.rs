@@ -1,13 +1,11 @@
 //! Picks: the hierarchy with exact signs, and every face tried with rounded arithmetic, against rational arithmetic (Lam 2016, §4.1.1).
 //!
-//! **Truth.** The face is the first of all by exact signs (`truth`), without any hierarchy, and FC's own oracle confirms that the ray meets it between
+//! **Truth.** The face is the first of all by exact signs ([`first_face`]), without any hierarchy, and FC's own oracle confirms that the ray meets it between
 //! its sides ([`exact`](crate::measure::exact)). The point is where the ray meets its plane, as a fraction. No pick has a say in it.
 //!
 //! **Error.** The root of the mean square of the distance of a pick's point from the exact one, in nanometres, over the picks that met the right
 //! face; the largest; and how many of a million met another face or none. The thesis tries every face (Möller and Trumbore 1997), which costs the
 //! more the larger the mesh is.
-
-mod truth;
 
 use glam::DVec3;
 
@@ -19,7 +17,7 @@ use crate::assets::builtin::builtin;
 use crate::engine::wound::chain::At;
 use crate::engine::wound::{Pick, State, pick};
 use crate::measure::baseline::Scalar;
-use crate::measure::exact::{Datum, ExactPoint, Question, Section};
+use crate::measure::exact::{Datum, ExactPoint, Question, Section, first_face};
 use crate::measure::scaling::default_scene;
 use crate::measure::{MeasureError, Random};
 use crate::mesh::{FaceId, Mesh};
@@ -116,7 +114,7 @@ fn rays(state: &State, count: usize) -> Vec<Ray> {
 fn aimed(state: &State, pixel: [f64; 2]) -> Option<Datum> {
     let camera = state.control.camera;
     let through = camera.through(pixel)?;
-    let face = truth::first_face(&state.mesh, camera.eye(), through)?;
+    let face = first_face(&state.mesh, camera.eye(), through).0?;
     Some(Datum { through, at: At::Face(face) })
 }
 

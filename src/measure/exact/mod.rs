@@ -20,6 +20,7 @@
 
 mod compare;
 mod errors;
+mod first;
 mod number;
 mod search;
 mod section;
@@ -30,6 +31,7 @@ use glam::DVec3;
 
 pub use compare::{Agreement, Disagreement, compare, compare_chain};
 pub use errors::{ChainErrors, errors};
+pub use first::first_face;
 pub use number::ExactPoint;
 pub use section::Section;
 
